@@ -10,6 +10,25 @@ pub const MINUTE: Millis = 60_000;
 /// Longest grace, in minutes: a week.
 pub const LONGEST_GRACE: Millis = 10_080;
 
+/// Most points that a homework counts.
+const MOST_POINTS: f64 = 100_000.0;
+
+/// What is said of a number of attempts that is none.
+pub fn no_attempts() -> Text {
+    Text::new(
+        "Attempts: a whole number above 0, or nothing.",
+        "提出回数は 1 以上の整数で入力するか、空欄にしてください。",
+    )
+}
+
+/// What a homework counts in its course, where it may count that.
+pub fn check_points(points: f64) -> Result<f64, Text> {
+    if (0.0..=MOST_POINTS).contains(&points) {
+        return Ok(points);
+    }
+    Err(Text::new("Points: a number from 0, or nothing.", "配点は 0 以上の数値で入力するか、空欄にしてください。"))
+}
+
 /// What is wrong with rules, where something is.
 pub fn check(rules: &AssignmentSettings) -> Result<(), Text> {
     let (opens, due, late) = (rules.opens_at, rules.closes_at, &rules.late);
@@ -18,10 +37,7 @@ pub fn check(rules: &AssignmentSettings) -> Result<(), Text> {
         return Err(Text::new("The end must come after the beginning.", "終了日時は開始日時より後にしてください。"));
     }
     if rules.attempts == Some(0) {
-        return Err(Text::new(
-            "Attempts: a whole number above 0, or nothing.",
-            "提出回数は 1 以上の整数で入力するか、空欄にしてください。",
-        ));
+        return Err(no_attempts());
     }
     if !(0..=LONGEST_GRACE * MINUTE).contains(&late.grace) {
         return Err(Text::new(

@@ -4,6 +4,7 @@ use super::body::{other, patched};
 use super::caller::{Caller, check, check_course};
 use super::refusals::{Errors, NotFound, Refusals};
 use crate::diagnose::Hints;
+use crate::language::Text;
 use crate::service::acts::Detail;
 use crate::service::clock::Millis;
 use crate::service::counting::Counting;
@@ -77,9 +78,6 @@ pub(super) struct PlanJson {
     offered: Vec<String>,
 }
 
-/// Most points that a homework counts.
-const MOST_POINTS: f64 = 100_000.0;
-
 fn timestamp(at: Option<Millis>) -> Option<Timestamp> {
     at.and_then(|at| Timestamp::from_millisecond(at).ok())
 }
@@ -125,15 +123,11 @@ impl SettingsJson {
             },
             ..rules
         };
-        rules::check(&rules).map_err(|wrong| Problem::unprocessable(wrong.en, wrong.ja))?;
-        if self.points.is_some_and(|points| !(0.0..=MOST_POINTS).contains(&points)) {
-            return Err(Problem::unprocessable(
-                "Points: a number from 0, or nothing.",
-                "配点は 0 以上の数値で入力するか、空欄にしてください。",
-            ));
-        }
+        let refused = |wrong: Text| Problem::unprocessable(wrong.en, wrong.ja);
+        rules::check(&rules).map_err(refused)?;
+        let points = self.points.map(rules::check_points).transpose().map_err(refused)?;
         let shown_from = millis(self.shown_from).filter(|_| !self.is_hidden);
-        let place = CoursePlace { points: self.points, is_hidden: i64::from(self.is_hidden), shown_from, ..place };
+        let place = CoursePlace { points, is_hidden: i64::from(self.is_hidden), shown_from, ..place };
         Ok((rules, place))
     }
 }

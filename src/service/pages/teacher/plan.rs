@@ -10,6 +10,7 @@ use crate::service::acts::Detail;
 use crate::service::courses;
 use crate::service::errors::Problem;
 use crate::service::identity::{LecturerPage, Teacher};
+use crate::service::rules;
 use crate::service::store::CoursePlace;
 use crate::service::{Service, State};
 use askama::Template;
@@ -49,9 +50,6 @@ struct HomeworkLine {
 
 /// The form: `csrf`, and of each homework `position.ID`, `points.ID`, `seen.ID`, `from.ID`, `leave.ID`, `add.ID`.
 type Fields = HashMap<String, String>;
-
-/// Most points that a homework counts.
-const MOST_POINTS: f64 = 100_000.0;
 
 fn field<'a>(fields: &'a Fields, name: &str, id: &str) -> Option<&'a str> {
     fields.get(&format!("{name}.{id}")).map(|text| text.trim())
@@ -163,7 +161,7 @@ async fn places(
         let position = field(fields, "position", id).and_then(|text| text.parse().ok()).unwrap_or(index as f64 + 1.0);
         match read(frame, fields, place) {
             Ok(place) => ordered.push((position, place)),
-            Err(wrong) => return Ok(Err(wrong.to_owned())),
+            Err(wrong) => return Ok(Err(wrong)),
         }
     }
     // Two with one number stay in the order in which they stand.
@@ -182,26 +180,26 @@ async fn places(
 }
 
 /// What the form says of one homework.
-fn read(frame: &PageFrame, fields: &Fields, place: CoursePlace) -> Result<CoursePlace, &'static str> {
+fn read(frame: &PageFrame, fields: &Fields, place: CoursePlace) -> Result<CoursePlace, String> {
     let points = match field(fields, "points", &place.id) {
         None => place.points,
         Some("") => None,
         Some(text) => {
-            let points = text.parse().ok().filter(|points: &f64| (0.0..=MOST_POINTS).contains(points));
-            Some(points.ok_or(frame.say(
-                "Points: a number from 0, or nothing.",
-                "配点は 0 以上の数値で入力するか、空欄にしてください。",
-            ))?)
+            // What is no number is none that a homework may count.
+            let points = rules::check_points(text.parse().unwrap_or(f64::NAN));
+            Some(points.map_err(|wrong| wrong.get(frame.language).to_owned())?)
         }
     };
     let from = datetime::parse(field(fields, "from", &place.id).unwrap_or_default(), frame.course.zone());
     let from = from.map_err(|_| {
-        frame.say("A date has the form 2026-12-31T23:59.", "日時は 2026-12-31T23:59 の形で入力してください。")
+        frame
+            .say("A date has the form 2026-12-31T23:59.", "日時は 2026-12-31T23:59 の形で入力してください。")
+            .to_owned()
     })?;
     let (is_hidden, shown_from) = match (field(fields, "seen", &place.id), from) {
         (Some("hidden"), _) => (1, None),
         (Some("from"), None) => {
-            return Err(frame.say("Say from when on it is shown.", "公開を始める日時を入力してください。"));
+            return Err(frame.say("Say from when on it is shown.", "公開を始める日時を入力してください。").to_owned());
         }
         (Some("from"), from) => (0, from),
         (Some(_), _) => (0, None),

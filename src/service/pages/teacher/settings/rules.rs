@@ -96,14 +96,7 @@ impl RulesForm {
         };
         let attempts = match self.attempts.trim() {
             "" => None,
-            number => Some(number.parse().map_err(|_| {
-                frame
-                    .say(
-                        "Attempts: a whole number above 0, or nothing.",
-                        "提出回数は 1 以上の整数で入力するか、空欄にしてください。",
-                    )
-                    .to_owned()
-            })?),
+            number => Some(number.parse().map_err(|_| rules::no_attempts().get(frame.language).to_owned())?),
         };
         let (opens_at, closes_at) = (date(&self.opens)?, date(&self.closes)?);
         let (hints, audience) = (read_hints(&self.hints), read_audience(&self.audience));
