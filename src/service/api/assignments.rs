@@ -1,5 +1,6 @@
 //! `/api/v1/assignments`: the homeworks of the service.
 
+use super::body::unkept;
 use super::refusals::Errors;
 use super::schema::time;
 use crate::language::Language;
@@ -9,10 +10,8 @@ use crate::service::identity::Teacher;
 use crate::service::language::Lang;
 use crate::service::store::{AssignmentSettings, LateSpan};
 use crate::service::{Service, State};
-use axum::Json;
 use axum::extract::State as Shared;
-use axum::http::header;
-use axum::response::{IntoResponse, Response};
+use axum::response::Response;
 use serde::Serialize;
 
 /// A homework that the service takes files for.
@@ -108,5 +107,5 @@ pub(super) async fn list(
         }
         assignments.push(AssignmentJson::of(&state, &rules, language));
     }
-    Ok(([(header::CACHE_CONTROL, "no-store")], Json(AssignmentsJson { assignments })).into_response())
+    Ok(unkept(AssignmentsJson { assignments }))
 }

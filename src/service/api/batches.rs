@@ -1,6 +1,7 @@
 //! `/api/v1/batches` and `/api/v1/class`: for teachers.
 
 use super::archive::UploadedArchive;
+use super::body::unkept;
 use super::caller::check_page;
 use super::refusals::{Errors, NotFound, Refusals};
 use super::schema::{BatchJson, FilledFormatName, FormatName, IdempotencyKey};
@@ -113,7 +114,7 @@ pub(super) async fn read(
     Path(id): Path<String>,
 ) -> Result<Response, Problem> {
     let (state, batch) = find(&service, &teacher, &id).await?;
-    Ok(([(header::CACHE_CONTROL, "no-store")], Json(shown(&state, batch, language).await?)).into_response())
+    Ok(unkept(shown(&state, batch, language).await?))
 }
 
 /// How far a batch is, as it goes on

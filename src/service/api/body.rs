@@ -2,10 +2,11 @@
 
 use crate::hand_in::{HandIn, HandedInFile};
 use crate::service::errors::Problem;
+use axum::Json;
 use axum::body::Bytes;
 use axum::extract::{FromRequest, Multipart, Request};
 use axum::http::{StatusCode, header};
-use axum::response::IntoResponse;
+use axum::response::{IntoResponse, Response};
 use std::collections::HashMap;
 
 /// Parts that a form may have, and the longest text in one, in bytes.
@@ -81,6 +82,11 @@ fn no_file() -> Problem {
 pub(in crate::service) fn other(rejection: impl IntoResponse + std::fmt::Display) -> Problem {
     let said = rejection.to_string();
     Problem::of_status(rejection.into_response().status(), &said)
+}
+
+/// An answer of which nobody keeps a copy: it is another one soon, or for one person.
+pub(super) fn unkept(json: impl serde::Serialize) -> Response {
+    ([(header::CACHE_CONTROL, "no-store")], Json(json)).into_response()
 }
 
 /// An object with the members of a patch in the place of its own (RFC 7396, of one level).

@@ -1,6 +1,6 @@
 //! `/api/v1/courses`, and `/api/v1/course`: the courses of the service, and what a course sets for all its homeworks.
 
-use super::body::{other, patched};
+use super::body::{other, patched, unkept};
 use super::caller::{Caller, check_course, check_reader};
 use super::refusals::{Errors, NotFound, Refusals};
 use super::schema::time;
@@ -15,7 +15,7 @@ use crate::service::store::StaffRole;
 use axum::Json;
 use axum::extract::State as Shared;
 use axum::extract::rejection::JsonRejection;
-use axum::http::{HeaderMap, StatusCode, header};
+use axum::http::{HeaderMap, StatusCode};
 use axum::response::{IntoResponse, Response};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -91,7 +91,7 @@ pub(super) async fn list(
             courses.push(of(&course).await?);
         }
     }
-    Ok(([(header::CACHE_CONTROL, "no-store")], Json(CoursesJson { courses })).into_response())
+    Ok(unkept(CoursesJson { courses }))
 }
 
 /// Make a course
@@ -171,7 +171,7 @@ pub(super) async fn read(
 ) -> Result<Response, Problem> {
     check_reader(&teacher, StaffRole::Lecturer)?;
     let json = course_json(&service, &headers).await?;
-    Ok(([(header::CACHE_CONTROL, "no-store")], Json(json)).into_response())
+    Ok(unkept(json))
 }
 
 /// Change the course

@@ -1,6 +1,7 @@
 //! `/api/v1/extensions`, and which submission counts: for teachers.
 
 use super::batches::OfQuery;
+use super::body::unkept;
 use super::caller::{Caller, check};
 use super::refusals::{Errors, NotFound, Refusals};
 use super::schema::time;
@@ -14,7 +15,7 @@ use crate::service::store::{Beneficiary, NamedExtension, StaffRole};
 use axum::Json;
 use axum::extract::rejection::{JsonRejection, QueryRejection};
 use axum::extract::{Path, Query, State as Shared};
-use axum::http::{StatusCode, header};
+use axum::http::StatusCode;
 use axum::response::{IntoResponse, Response};
 use serde::{Deserialize, Serialize};
 
@@ -78,7 +79,7 @@ pub(super) async fn list(
         reason: extension.reason,
     };
     let extensions = state.store.extensions(&state.assignment.id).await?.into_iter().map(json).collect();
-    Ok(([(header::CACHE_CONTROL, "no-store")], Json(ExtensionsJson { extensions })).into_response())
+    Ok(unkept(ExtensionsJson { extensions }))
 }
 
 /// Set the deadline of a student or a group

@@ -1,6 +1,7 @@
 //! `/api/v1/folders`: homeworks that come by the network.
 
 use super::archive::UploadedArchive;
+use super::body::unkept;
 use super::caller::{Caller, check_course, check_reader};
 use super::refusals::{Errors, NotFound, Refusals};
 use super::schema::time;
@@ -12,7 +13,7 @@ use crate::service::identity::Teacher;
 use crate::service::store::{StaffRole, UploadedFolder};
 use axum::Json;
 use axum::extract::{Path, Request, State as Shared};
-use axum::http::{StatusCode, header};
+use axum::http::StatusCode;
 use axum::response::{IntoResponse, Response};
 use serde::{Deserialize, Serialize};
 
@@ -93,7 +94,7 @@ pub(super) async fn list(teacher: Teacher, Shared(service): Shared<Service>) -> 
     check_reader(&teacher, StaffRole::Lecturer)?;
     let folders = service.store.folders().await?;
     let folders = folders.iter().map(|folder| FolderJson::of(&service, folder)).collect();
-    Ok(([(header::CACHE_CONTROL, "no-store")], Json(FoldersJson { folders })).into_response())
+    Ok(unkept(FoldersJson { folders }))
 }
 
 /// Upload the folder of a homework

@@ -1,6 +1,7 @@
 //! What people judge beside the grading: for teachers.
 
 use super::batches::OfQuery;
+use super::body::unkept;
 use super::caller::{Caller, check_page};
 use super::refusals::{Errors, NotFound, Refusals};
 use super::schema::time;
@@ -14,7 +15,7 @@ use crate::service::store::{Appeal, StoredComment, StoredSubmission};
 use axum::Json;
 use axum::extract::rejection::{JsonRejection, QueryRejection};
 use axum::extract::{Path, Query, State as Shared};
-use axum::http::{StatusCode, header};
+use axum::http::StatusCode;
 use axum::response::{IntoResponse, Response};
 use serde::{Deserialize, Serialize};
 
@@ -216,7 +217,7 @@ pub(super) async fn appeals(
         answered_at: appeal.answered_at.map(time),
     };
     let appeals = state.store.appeals(&state.assignment.id).await?.into_iter().map(json).collect();
-    Ok(([(header::CACHE_CONTROL, "no-store")], Json(AppealsJson { appeals })).into_response())
+    Ok(unkept(AppealsJson { appeals }))
 }
 
 /// The answer to an appeal.

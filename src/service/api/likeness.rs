@@ -1,6 +1,7 @@
 //! Answers that are alike: for teachers.
 
 use super::batches::OfQuery;
+use super::body::unkept;
 use super::refusals::{Errors, NotFound, Refusals};
 use crate::likeness::{Pair, Side};
 use crate::service::Service;
@@ -8,11 +9,9 @@ use crate::service::courses::at;
 use crate::service::errors::Problem;
 use crate::service::identity::Teacher;
 use crate::service::likeness::{self, AlikePerson};
-use axum::Json;
 use axum::extract::rejection::QueryRejection;
 use axum::extract::{Path, Query, State as Shared};
-use axum::http::header;
-use axum::response::{IntoResponse, Response};
+use axum::response::Response;
 use serde::Serialize;
 
 /// How much two answers are alike: a hint, and no verdict.
@@ -106,7 +105,7 @@ pub(super) async fn list(
         pairs: found.pairs.into_iter().map(alike).collect(),
         left_out: found.left_out,
     };
-    Ok(([(header::CACHE_CONTROL, "no-store")], Json(json)).into_response())
+    Ok(unkept(json))
 }
 
 /// A piece of a line.
@@ -163,5 +162,5 @@ pub(super) async fn compare(
     };
     let sides = found.sides.map(|files| files.into_iter().map(side).collect());
     let json = ComparisonJson { pair: PairJson::of(&found.pair), sides: sides.into() };
-    Ok(([(header::CACHE_CONTROL, "no-store")], Json(json)).into_response())
+    Ok(unkept(json))
 }

@@ -1,6 +1,6 @@
 //! `/api/v1/platforms`: the learning platforms from which people come.
 
-use super::body::other;
+use super::body::{other, unkept};
 use super::caller::{Caller, check_course, check_reader};
 use super::refusals::{Errors, NotFound, Refusals};
 use crate::service::Service;
@@ -12,7 +12,7 @@ use crate::service::store::{Platform, StaffRole};
 use axum::Json;
 use axum::extract::rejection::JsonRejection;
 use axum::extract::{Path, State as Shared};
-use axum::http::{StatusCode, header};
+use axum::http::StatusCode;
 use axum::response::{IntoResponse, Response};
 use serde::{Deserialize, Serialize};
 
@@ -168,7 +168,7 @@ pub(super) async fn list(teacher: Teacher, Shared(service): Shared<Service>) -> 
     for platform in service.store.platforms().await? {
         platforms.push(json(&service, platform).await?);
     }
-    Ok(([(header::CACHE_CONTROL, "no-store")], Json(PlatformsJson { platforms })).into_response())
+    Ok(unkept(PlatformsJson { platforms }))
 }
 
 /// Register a platform by hand

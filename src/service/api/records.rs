@@ -1,6 +1,6 @@
 //! `/api/v1/gradebook` and `/api/v1/log`: what everybody has, and what was done.
 
-use super::body::other;
+use super::body::{other, unkept};
 use super::caller::check_reader;
 use super::refusals::{Errors, Refusals};
 use super::schema::time;
@@ -10,11 +10,9 @@ use crate::service::gradebook::{Gradebook, GradebookPerson, HomeworkColumn};
 use crate::service::identity::Teacher;
 use crate::service::language::Lang;
 use crate::service::store::{NamedAct, StaffRole};
-use axum::Json;
 use axum::extract::rejection::QueryRejection;
 use axum::extract::{Query, State as Shared};
-use axum::http::header;
-use axum::response::{IntoResponse, Response};
+use axum::response::Response;
 use serde::{Deserialize, Serialize};
 
 /// The gradebook of a course.
@@ -76,7 +74,7 @@ pub(super) async fn gradebook(
         assignments: book.homeworks.into_iter().map(column).collect(),
         students: book.lines.into_iter().map(line).collect(),
     };
-    Ok(([(header::CACHE_CONTROL, "no-store")], Json(json)).into_response())
+    Ok(unkept(json))
 }
 
 /// The log of what teachers did.
@@ -153,5 +151,5 @@ pub(super) async fn log(
         detail: act.detail,
     };
     let acts = acts.into_iter().map(act).collect();
-    Ok(([(header::CACHE_CONTROL, "no-store")], Json(LogJson { total, acts })).into_response())
+    Ok(unkept(LogJson { total, acts }))
 }

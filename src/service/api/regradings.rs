@@ -1,7 +1,7 @@
 //! `/api/v1/regradings`: grading everything again, and what that would change.
 
 use super::batches::OfQuery;
-use super::body::other;
+use super::body::{other, unkept};
 use super::caller::{Caller, check};
 use super::refusals::{Errors, NotFound, Refusals};
 use super::schema::time;
@@ -16,7 +16,7 @@ use crate::service::{Service, State};
 use axum::Json;
 use axum::extract::rejection::QueryRejection;
 use axum::extract::{Path, Query, State as Shared};
-use axum::http::{StatusCode, header};
+use axum::http::StatusCode;
 use axum::response::{IntoResponse, Response};
 use serde::{Deserialize, Serialize};
 
@@ -167,7 +167,7 @@ pub(super) async fn read(
     Path(id): Path<String>,
 ) -> Result<Response, Problem> {
     let (state, regrading) = found(&service, &teacher, &id).await?;
-    Ok(([(header::CACHE_CONTROL, "no-store")], Json(json(&state, regrading).await?)).into_response())
+    Ok(unkept(json(&state, regrading).await?))
 }
 
 /// Let the results take the place of the reports

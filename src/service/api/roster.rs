@@ -1,6 +1,6 @@
 //! `/api/v1/roster` and `/api/v1/codes`: who the class is, and by what each of them proves it.
 
-use super::body::other;
+use super::body::{other, unkept};
 use super::caller::{Caller, check_course, check_reader};
 use super::refusals::{Errors, NotFound, Refusals};
 use crate::service::acts::Detail;
@@ -12,7 +12,7 @@ use axum::Json;
 use axum::body::Bytes;
 use axum::extract::rejection::BytesRejection;
 use axum::extract::{Path, State as Shared};
-use axum::http::{HeaderMap, header};
+use axum::http::HeaderMap;
 use axum::response::{IntoResponse, Response};
 use serde::Serialize;
 
@@ -73,7 +73,7 @@ async fn json(service: &Service) -> Result<RosterJson, Problem> {
 )]
 pub(super) async fn read(teacher: Teacher, Shared(service): Shared<Service>) -> Result<Response, Problem> {
     check_reader(&teacher, StaffRole::Assistant)?;
-    Ok(([(header::CACHE_CONTROL, "no-store")], Json(json(&service).await?)).into_response())
+    Ok(unkept(json(&service).await?))
 }
 
 /// Take a roster in the place of the last one
@@ -115,7 +115,7 @@ pub(super) async fn codes(
     let link = course_link(&service, &headers).await?;
     let students = service.store.with_codes().await?;
     let codes = students.into_iter().map(|student| code(&service, &link, student)).collect();
-    Ok(([(header::CACHE_CONTROL, "no-store")], Json(CodesJson { codes })).into_response())
+    Ok(unkept(CodesJson { codes }))
 }
 
 /// Replace a student's code

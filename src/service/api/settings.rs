@@ -1,6 +1,6 @@
 //! `/api/v1/assignments/{id}/settings`, and `/api/v1/plan`: what a lecturer sets for the homeworks of a course.
 
-use super::body::{other, patched};
+use super::body::{other, patched, unkept};
 use super::caller::{Caller, check, check_course};
 use super::refusals::{Errors, NotFound, Refusals};
 use crate::diagnose::Hints;
@@ -17,7 +17,6 @@ use crate::service::{Service, State};
 use axum::Json;
 use axum::extract::rejection::JsonRejection;
 use axum::extract::{Path, State as Shared};
-use axum::http::header;
 use axum::response::{IntoResponse, Response};
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
@@ -153,7 +152,7 @@ pub(super) async fn read(
     teacher.check(&id)?;
     let (rules, place) = standing(&state).await?;
     let json = SettingsJson::of(&rules, &place);
-    Ok(([(header::CACHE_CONTROL, "no-store")], Json(json)).into_response())
+    Ok(unkept(json))
 }
 
 /// Set something for a homework
@@ -197,7 +196,7 @@ fn plan_json(service: &Service) -> PlanJson {
 )]
 pub(super) async fn plan(teacher: Teacher, Shared(service): Shared<Service>) -> Result<Response, Problem> {
     teacher.check_course()?;
-    Ok(([(header::CACHE_CONTROL, "no-store")], Json(plan_json(&service))).into_response())
+    Ok(unkept(plan_json(&service)))
 }
 
 /// Choose and order the homeworks of the course

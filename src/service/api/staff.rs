@@ -1,6 +1,6 @@
 //! `/api/v1/staff`: who teaches in a course.
 
-use super::body::{other, patched};
+use super::body::{other, patched, unkept};
 use super::caller::{Caller, check_course, check_reader};
 use super::refusals::{Errors, NotFound, Refusals};
 use crate::service::Service;
@@ -11,7 +11,7 @@ use crate::service::store::{StaffMember, StaffRole, word};
 use axum::Json;
 use axum::extract::rejection::JsonRejection;
 use axum::extract::{Path, State as Shared};
-use axum::http::{StatusCode, header};
+use axum::http::StatusCode;
 use axum::response::{IntoResponse, Response};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -94,7 +94,7 @@ fn no_administrator(role: StaffRole) -> Result<(), Problem> {
 pub(super) async fn list(teacher: Teacher, Shared(service): Shared<Service>) -> Result<Response, Problem> {
     check_reader(&teacher, StaffRole::Lecturer)?;
     let staff = identity::people(&service).await?.into_iter().map(|member| json(member, None)).collect();
-    Ok(([(header::CACHE_CONTROL, "no-store")], Json(StaffJson { staff })).into_response())
+    Ok(unkept(StaffJson { staff }))
 }
 
 /// Let somebody in

@@ -1,6 +1,6 @@
 //! `/api/v1/submissions`.
 
-use super::body::RequestForm;
+use super::body::{RequestForm, unkept};
 use super::refusals::{Errors, NotFound, Refusals};
 use super::schema::{IdempotencyKey, SubmissionJson};
 use crate::diagnose::Hints;
@@ -262,7 +262,7 @@ pub(super) async fn read(
         Some(_) => None,
     };
     let body = SubmissionJson::of(&submission, report.as_ref(), submission.fault.as_ref(), position, language);
-    Ok(([(header::CACHE_CONTROL, "no-store")], Json(body)).into_response())
+    Ok(unkept(body))
 }
 
 /// The submission with this id.

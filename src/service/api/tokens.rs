@@ -1,5 +1,6 @@
 //! `/api/v1/tokens`: which tokens there are, and ending one. A person makes them, on a page.
 
+use super::body::unkept;
 use super::caller::check_page;
 use super::refusals::{Errors, NotFound, Refusals};
 use super::schema::time;
@@ -7,9 +8,8 @@ use crate::service::Service;
 use crate::service::errors::Problem;
 use crate::service::identity::{Teacher, end_token, tokens_for};
 use crate::service::store::{OwnedToken, TokenScope};
-use axum::Json;
 use axum::extract::{Path, State as Shared};
-use axum::http::{HeaderMap, StatusCode, header};
+use axum::http::{HeaderMap, StatusCode};
 use axum::response::{IntoResponse, Response};
 use serde::Serialize;
 
@@ -69,7 +69,7 @@ impl From<OwnedToken> for TokenJson {
 )]
 pub(super) async fn list(teacher: Teacher, Shared(service): Shared<Service>) -> Result<Response, Problem> {
     let tokens = tokens_for(&service, &teacher).await?.into_iter().map(TokenJson::from).collect();
-    Ok(([(header::CACHE_CONTROL, "no-store")], Json(TokensJson { tokens })).into_response())
+    Ok(unkept(TokensJson { tokens }))
 }
 
 /// End a token
