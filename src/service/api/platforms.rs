@@ -7,8 +7,9 @@ use crate::service::Service;
 use crate::service::acts::Detail;
 use crate::service::errors::Problem;
 use crate::service::identity::{Teacher, new_id};
+use crate::service::lti::known::{self, KnownPlatform};
 use crate::service::lti::{contexts, memberships, registration};
-use crate::service::store::{Platform, StaffRole};
+use crate::service::store::{Deployment, Platform, PlatformCourse, StaffRole};
 use axum::Json;
 use axum::extract::rejection::JsonRejection;
 use axum::extract::{Path, State as Shared};
@@ -130,25 +131,28 @@ pub(super) struct FetchedJson {
     students: usize,
 }
 
-async fn json(service: &Service, platform: Platform) -> Result<PlatformJson, Problem> {
-    let deployments = service.store.deployments().await?.into_iter().filter(|one| one.platform_id == platform.id);
-    let courses = service.store.platform_courses().await?.into_iter().filter(|one| one.platform_id == platform.id);
-    let stuck = service.store.stuck_scores().await?.into_iter().find(|(id, ..)| *id == platform.id);
-    Ok(PlatformJson {
-        deployments: deployments
-            .map(|one| DeploymentJson { id: one.deployment_id, is_approved: one.is_approved != 0 })
-            .collect(),
-        courses: courses
-            .map(|one| PlatformCourseJson { context: one.context, title: one.title, course: one.course })
-            .collect(),
-        waiting_scores: stuck.as_ref().map_or(0, |(_, count, _)| *count),
-        problem: stuck.and_then(|(.., problem)| problem),
+fn json(known: KnownPlatform) -> PlatformJson {
+    let KnownPlatform { platform, deployments, courses, stuck, .. } = known;
+    let deployment = |one: Deployment| DeploymentJson { id: one.deployment_id, is_approved: one.is_approved != 0 };
+    let course =
+        |one: PlatformCourse| PlatformCourseJson { context: one.context, title: one.title, course: one.course };
+    PlatformJson {
+        deployments: deployments.into_iter().map(deployment).collect(),
+        courses: courses.into_iter().map(course).collect(),
+        waiting_scores: stuck.as_ref().map_or(0, |(count, _)| *count),
+        problem: stuck.map(|(_, why)| why),
         is_active: platform.is_active != 0,
         id: platform.id,
         name: platform.name,
         issuer: platform.issuer,
         client_id: platform.client_id,
-    })
+    }
+}
+
+/// A platform as it stands.
+async fn standing(service: &Service, id: &str) -> Result<Json<PlatformJson>, Problem> {
+    let known = known::platforms(service).await?.into_iter().find(|known| known.platform.id == id);
+    Ok(Json(json(known.ok_or_else(Problem::not_found)?)))
 }
 
 /// A platform that is registered with this very course.
@@ -164,10 +168,7 @@ async fn own(service: &Service, id: &str) -> Result<Platform, Problem> {
 )]
 pub(super) async fn list(teacher: Teacher, Shared(service): Shared<Service>) -> Result<Response, Problem> {
     check_reader(&teacher, StaffRole::Lecturer)?;
-    let mut platforms = Vec::new();
-    for platform in service.store.platforms().await? {
-        platforms.push(json(&service, platform).await?);
-    }
+    let platforms = known::platforms(&service).await?.into_iter().map(json).collect();
     Ok(unkept(PlatformsJson { platforms }))
 }
 
@@ -188,7 +189,7 @@ pub(super) async fn add(
     let Json(wish) = wish.map_err(other)?;
     let platform = Platform {
         id: new_id(),
-        name: if wish.name.trim().is_empty() { wish.issuer.clone() } else { wish.name },
+        name: wish.name,
         issuer: wish.issuer,
         client_id: wish.client_id,
         auth_url: wish.auth_url,
@@ -199,7 +200,7 @@ pub(super) async fn add(
     };
     let platform = registration::keep(&service, platform, Some(wish.deployment.trim())).await?;
     let detail = Detail::of(format!("add {} {}", platform.issuer, wish.deployment));
-    Ok(detail.on((StatusCode::CREATED, Json(json(&service, platform).await?)).into_response()))
+    Ok(detail.on((StatusCode::CREATED, standing(&service, &platform.id).await?).into_response()))
 }
 
 /// Make a registration link
@@ -240,8 +241,7 @@ pub(super) async fn change(
         service.store.note_deployment(&platform.id, deployment, true).await?;
         said += &format!(" approve {deployment}");
     }
-    let platform = own(&service, &id).await?;
-    Ok(Detail::of(said).on(Json(json(&service, platform).await?).into_response()))
+    Ok(Detail::of(said).on(standing(&service, &id).await?.into_response()))
 }
 
 /// Connect a platform's course with a course here
@@ -265,7 +265,7 @@ pub(super) async fn connect(
     contexts::connect(&service, &platform, &wish.context, wish.course.as_deref()).await?;
     let course = wish.course.as_deref().unwrap_or("–");
     let detail = Detail::of(format!("connect {} {} {course}", platform.issuer, wish.context));
-    Ok(detail.on(Json(json(&service, platform).await?).into_response()))
+    Ok(detail.on(standing(&service, &id).await?.into_response()))
 }
 
 /// Fetch the roster of a platform's course

@@ -99,8 +99,10 @@ pub async fn register(service: &Service, secret: &str, asked: &RegistrationQuery
     Ok(platform)
 }
 
-/// Keeps a platform with its first deployment.
+/// Keeps a platform with its first deployment. One without a name is called by its issuer.
 pub async fn keep(service: &Service, platform: Platform, deployment: Option<&str>) -> Result<Platform, Problem> {
+    let has_name = !platform.name.trim().is_empty();
+    let platform = if has_name { platform } else { Platform { name: platform.issuer.clone(), ..platform } };
     for address in [&platform.auth_url, &platform.token_url, &platform.keys_url] {
         checked(address).map_err(|failure| Problem::unprocessable(failure.clone(), failure))?;
     }

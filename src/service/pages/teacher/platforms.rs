@@ -7,8 +7,9 @@ use crate::service::Service;
 use crate::service::acts::Detail;
 use crate::service::errors::Problem;
 use crate::service::identity::{LecturerPage, Teacher, new_id};
+use crate::service::lti::known::{self, KnownPlatform};
 use crate::service::lti::{self, contexts, memberships, registration};
-use crate::service::store::{Deployment, Link, Platform, PlatformCourse, StaffRole};
+use crate::service::store::{Link, Platform, StaffRole};
 use askama::Template;
 use axum::Form;
 use axum::extract::State as Shared;
@@ -37,16 +38,9 @@ struct PlatformsPage {
 
 /// A platform of the list.
 struct PlatformLine {
-    platform: Platform,
-    deployments: Vec<Deployment>,
-    /// Whether it is registered with the first course, and some of its courses are connected with this one.
-    is_elsewheres: bool,
-    /// Its courses from which somebody came.
-    courses: Vec<PlatformCourse>,
+    known: KnownPlatform,
     /// Links by which rosters are fetched, one of each course.
     rosters: Vec<Link>,
-    /// How many scores did not arrive, and why.
-    stuck: Option<(i64, String)>,
 }
 
 /// A form of the page. `wish` says which.
@@ -101,33 +95,18 @@ async fn view(
     said: PlatformsNotice,
 ) -> Result<Response, Problem> {
     teacher.check_course()?;
-    let (deployments, links) = (service.store.deployments().await?, service.store.links().await?);
-    let stuck = service.store.stuck_scores().await?;
-    let courses = service.store.platform_courses().await?;
-    let line = |platform: Platform, is_elsewheres: bool| {
+    let links = service.store.links().await?;
+    let line = |known: KnownPlatform| {
         let mut rosters: Vec<Link> = Vec::new();
-        for link in links.iter().filter(|link| link.platform_id == platform.id && link.memberships.is_some()) {
+        let own = |link: &&Link| link.platform_id == known.platform.id && link.memberships.is_some();
+        for link in links.iter().filter(own) {
             if !rosters.iter().any(|known| known.context == link.context) {
                 rosters.push(link.clone());
             }
         }
-        PlatformLine {
-            is_elsewheres,
-            courses: courses.iter().filter(|known| known.platform_id == platform.id).cloned().collect(),
-            deployments: deployments.iter().filter(|found| found.platform_id == platform.id).cloned().collect(),
-            rosters,
-            stuck: stuck
-                .iter()
-                .find(|(id, ..)| *id == platform.id)
-                .map(|(_, count, problem)| (*count, problem.clone().unwrap_or_default())),
-            platform,
-        }
+        PlatformLine { known, rosters }
     };
-    let mut platforms = Vec::new();
-    for platform in service.store.platforms().await? {
-        let is_elsewheres = contexts::is_elsewheres(service, &platform.id).await?;
-        platforms.push(line(platform, is_elsewheres));
-    }
+    let platforms = known::platforms(service).await?.into_iter().map(line).collect();
     let here = here(service, &frame).await?;
     shown(
         PlatformsPage {
@@ -226,7 +205,7 @@ async fn carried_out(
                 id: new_id(),
                 issuer: text(&wish.issuer),
                 client_id: text(&wish.client_id),
-                name: if wish.name.trim().is_empty() { text(&wish.issuer) } else { text(&wish.name) },
+                name: text(&wish.name),
                 auth_url: text(&wish.auth_url),
                 token_url: text(&wish.token_url),
                 keys_url: text(&wish.keys_url),
