@@ -70,6 +70,11 @@ impl Service {
         self.courses.open().iter().find(|open| open.id == id).map(|open| open.service.clone())
     }
 
+    /// The course with this id; the empty one is this one.
+    pub fn course_or_this(&self, id: &str) -> Option<Self> {
+        if id.is_empty() { Some(self.clone()) } else { self.course(id) }
+    }
+
     /// Id of the course; none for the first one.
     pub fn course_id(&self) -> Option<&str> {
         self.root.strip_prefix("/c/")

@@ -114,8 +114,7 @@ pub(super) async fn create(
     let made = match &wish.copy_of {
         None => courses::make(&service, &wish.id, &wish.title).await?,
         Some(from) => {
-            let from = if from.is_empty() { Some(service.clone()) } else { service.course(from) };
-            let from = from.ok_or_else(Problem::not_found)?;
+            let from = service.course_or_this(from).ok_or_else(Problem::not_found)?;
             courses::copy(&service, &from, (&wish.id, &wish.title), wish.days).await?
         }
     };

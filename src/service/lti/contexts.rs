@@ -46,13 +46,8 @@ pub(super) async fn course_of(service: &Service, platform: &Platform, claims: &C
         service.store.note_platform_course(&noted).await?;
     }
     let known = of_platform().await?.into_iter().find(|known| known.context == context);
-    let connected = known.and_then(|known| course(service, known.course.as_deref()?));
+    let connected = known.and_then(|known| service.course_or_this(known.course.as_deref()?));
     connected.ok_or_else(|| not_connected(platform, if title.is_empty() { context } else { &title }))
-}
-
-/// The course with this id; the empty one is this one.
-fn course(service: &Service, id: &str) -> Option<Service> {
-    if id.is_empty() { Some(service.clone()) } else { service.course(id) }
 }
 
 fn not_connected(platform: &Platform, title: &str) -> Problem {
@@ -75,7 +70,7 @@ pub async fn connect(service: &Service, platform: &Platform, context: &str, id: 
     let known = service.store.platform_courses().await?;
     let known = known.into_iter().find(|known| known.platform_id == platform.id && known.context == context);
     let before = known.ok_or_else(Problem::not_found)?.course;
-    let target = id.map(|id| course(service, id).ok_or_else(Problem::not_found)).transpose()?;
+    let target = id.map(|id| service.course_or_this(id).ok_or_else(Problem::not_found)).transpose()?;
     if let Some(target) = &target
         && target.root() != service.root()
     {
@@ -88,7 +83,7 @@ pub async fn connect(service: &Service, platform: &Platform, context: &str, id: 
         }
     }
     if before.as_deref() != id
-        && let Some(left) = before.and_then(|before| course(service, &before))
+        && let Some(left) = before.and_then(|before| service.course_or_this(&before))
     {
         left.store.forget_links(&platform.id, context).await?;
     }

@@ -122,10 +122,7 @@ pub(in crate::service::pages) async fn change(
 
 /// Does what a form asks for, and says where to go on.
 async fn done(service: &Service, form: &CourseForm) -> Result<String, Problem> {
-    let of = || match form.of.as_str() {
-        "" => Ok(service.clone()),
-        id => service.course(id).ok_or_else(Problem::not_found),
-    };
+    let of = || service.course_or_this(&form.of).ok_or_else(Problem::not_found);
     let to_plan = |course: &Service| format!("{}/teacher/plan", course.root());
     match form.wish.as_str() {
         "make" => Ok(to_plan(&courses::make(service, &form.id, &form.title).await?)),
