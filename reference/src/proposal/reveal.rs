@@ -7,12 +7,12 @@ use std::collections::HashSet;
 
 /// Widens the bounds of guessed values, as long as the folder grades and fewer parts show nowhere.
 pub(super) fn widen(plan: &mut FolderPlan, assignment: &Assignment) {
-    let unseen = |assignment: &Assignment| assignment.unseen_parts(&assignment.judging_probes());
-    let parts = unseen(assignment);
+    let probes = assignment.judging_probes();
+    let parts = assignment.unseen_parts(&probes);
     let all: Vec<&UnseenPart> = parts.iter().collect();
     let mut count = parts.len();
     let mut tried = HashSet::new();
-    for (part, found) in parts.iter().zip(assignment.revealing(&all, &assignment.judging_probes())) {
+    for (part, found) in parts.iter().zip(assignment.revealing(&all, &probes)) {
         let Some(Revealing { uniform, value }) = found.filter(|found| tried.insert(found.uniform.clone())) else {
             continue;
         };
@@ -21,7 +21,7 @@ pub(super) fn widen(plan: &mut FolderPlan, assignment: &Assignment) {
         let [least, greatest] = [least.min(number), greatest.max(number)];
         let wider = format!("probe = {{ within = [{least:?}, {greatest:?}] }}");
         let before = std::mem::replace(&mut plan.uniforms[entry].lines[line], wider);
-        match Assignment::load(plan.folder()).map(|assignment| unseen(&assignment).len()) {
+        match Assignment::load(plan.folder()).map(|wider| wider.unseen_parts(&wider.judging_probes()).len()) {
             Ok(fewer) if fewer < count => {
                 count = fewer;
                 let (own, at) = (&part.part.own, part.part.lines.0);
