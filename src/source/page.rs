@@ -1,6 +1,6 @@
 //! A fragment shader as a page for sharing shaders has it: `mainImage`, and nothing of what the page declares.
 
-use super::{Source, comments};
+use super::{Source, comments, declared_version};
 use crate::diagnostic::{Diagnostic, DiagnosticStage};
 use crate::language::Text;
 use reference::page::{Page, VERSION};
@@ -22,8 +22,7 @@ pub(super) fn complete(source: Source) -> Source {
             page.main
         ),
     );
-    let has_version = source.code.lines().any(|line| is_directive(line, "version"));
-    let default_version = if has_version { source.default_version } else { version() };
+    let default_version = declared_version(&source.code).map_or_else(version, |_| source.default_version);
     let mut notes = source.notes;
     notes.push(Diagnostic {
         severity: crate::diagnostic::Severity::Note,
