@@ -2,8 +2,8 @@
 
 use super::scene::DrawCall;
 use super::uniforms::fill;
-use crate::translate::{TEXTURES, UniformBlock};
-use reference::interpreter::Scalar;
+use crate::translate::{StageVariable, TEXTURES, UniformBlock};
+use naga::ScalarKind;
 use wgpu::util::DeviceExt;
 
 /// Bytes of one attribute of one vertex: four numbers. The driver has less to do for four than for three.
@@ -68,14 +68,13 @@ impl UniformBuffers {
 /// program does not feed are 0, 0, 0 and 1, as in OpenGL.
 pub(super) fn vertex_buffer(
     device: &wgpu::Device,
-    name: &str,
+    attribute: &StageVariable,
     batches: &[&DrawCall],
 ) -> (wgpu::Buffer, wgpu::VertexFormat) {
-    let columns = || batches.iter().map(|batch| batch.attributes.iter().find(|(attribute, _)| attribute == name));
-    let scalar = columns().flatten().next().and_then(|(_, values)| values.kind.scalar());
-    let (format, bits): (_, fn(f64) -> u32) = match scalar {
-        Some(Scalar::Int) => (wgpu::VertexFormat::Sint32x4, |number| (number as i32).cast_unsigned()),
-        Some(Scalar::Uint) => (wgpu::VertexFormat::Uint32x4, |number| number as u32),
+    let columns = || batches.iter().map(|batch| batch.attributes.iter().find(|(name, _)| *name == attribute.name));
+    let (format, bits): (_, fn(f64) -> u32) = match attribute.kind {
+        Some(ScalarKind::Sint) => (wgpu::VertexFormat::Sint32x4, |number| number as i64 as u32),
+        Some(ScalarKind::Uint) => (wgpu::VertexFormat::Uint32x4, |number| number as i64 as u32),
         _ => (wgpu::VertexFormat::Float32x4, |number| (number as f32).to_bits()),
     };
     let missing = [0.0, 0.0, 0.0, 1.0].map(bits);

@@ -69,7 +69,7 @@ impl Capture {
         let layout = with_textures.as_ref().unwrap_or(&stage.layout);
         let group = capture_group(device, layout, &records, textures);
         let (vertices, formats): (Vec<_>, Vec<_>) =
-            shader.inputs.iter().map(|attribute| vertex_buffer(device, &attribute.name, &batches)).unzip();
+            shader.inputs.iter().map(|attribute| vertex_buffer(device, attribute, &batches)).unzip();
         Self {
             pipeline: pipeline(device, shader, &formats, [&uniforms.layout, layout]),
             bind_groups: [uniforms.group, group],

@@ -71,7 +71,8 @@ fn write_number(scalar: Scalar, number: f64, place: &mut [u8]) {
         (ScalarKind::Float, 8) => place.copy_from_slice(&number.to_ne_bytes()),
         (ScalarKind::Float, _) => place.copy_from_slice(&(number as f32).to_ne_bytes()),
         (ScalarKind::Sint, _) => place.copy_from_slice(&(number as i32).to_ne_bytes()),
-        _ => place.copy_from_slice(&(number as u32).to_ne_bytes()),
+        // What has a sign has it in the bits.
+        _ => place.copy_from_slice(&(number as i64 as u32).to_ne_bytes()),
     }
 }
 

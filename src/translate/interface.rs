@@ -88,6 +88,14 @@ impl DeclaredUniform {
         is_it(&self.path) || self.path.split_once('.').is_some_and(|(_, member)| self.is_in_block && is_it(member))
     }
 
+    /// Whether it holds what the program passes as a value of this type. A block is filled with bits: whole numbers are the same
+    /// with a sign and without, and truth values are whole numbers there.
+    fn takes(&self, ty: &str) -> bool {
+        let is_filled_alike =
+            self.is_in_block && whole_numbers(ty).is_some_and(|own| whole_numbers(&self.ty) == Some(own));
+        self.ty == ty || is_filled_alike
+    }
+
     /// The variable as the program sets it, and as it is declared, where one of the two has parts and the other is one
     /// value.
     fn other_shape(&self, uniform: &Variable) -> Option<(Variable, &str)> {
@@ -123,7 +131,7 @@ pub(super) fn check(
     let mut noted: Vec<&str> = Vec::new();
     for declared in &shader.known.declared {
         if let Some(expected) = interface.uniforms.iter().find(|uniform| declared.is_at(&uniform.name)) {
-            if expected.ty != declared.ty {
+            if !declared.takes(&expected.ty) {
                 errors.push(wrong_type(source, "uniform", expected, &declared.ty));
             }
         } else if let Some((expected, ty)) = interface.uniforms.iter().find_map(|uniform| declared.other_shape(uniform))
@@ -146,12 +154,22 @@ pub(super) fn check(
     }
     for attribute in shader.inputs.iter().filter(|_| shader.stage == super::Stage::Vertex) {
         let Some(expected) = interface.inputs.iter().find(|input| input.name == attribute.name) else { continue };
-        // A program feeds floats; a shader may take fewer of them than there are.
-        if attribute.kind != Some(naga::ScalarKind::Float) || attribute.width != 4 {
+        // A shader may take fewer components than there are, and whole numbers with a sign or without.
+        let is_whole = matches!(attribute.kind, Some(ScalarKind::Sint | ScalarKind::Uint));
+        let is_number = is_whole || attribute.kind == Some(ScalarKind::Float);
+        if !is_number || is_whole != whole_numbers(&expected.ty).is_some() || attribute.width != 4 {
             errors.push(wrong_type(source, "in", expected, &attribute.ty));
         }
     }
     if errors.is_empty() { Ok(notes) } else { Err(TranslationRefusal::Rejected(errors)) }
+}
+
+/// How many components a type of whole numbers or truth values has; none of another type.
+fn whole_numbers(ty: &str) -> Option<u8> {
+    match ty {
+        "bool" | "int" | "uint" => Some(1),
+        _ => ty.strip_prefix(['b', 'i', 'u'])?.strip_prefix("vec")?.parse().ok(),
+    }
 }
 
 fn wrong_type(source: &Source, qualifier: &str, expected: &Variable, declared: &str) -> Diagnostic {
