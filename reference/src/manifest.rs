@@ -24,7 +24,7 @@ pub use mistake::{Alternative, Fit, Mistake, TermState, When};
 pub use pass::Pass;
 pub use probes::{Design, Probes, Range, Region};
 pub use scene::{Depth, Draw, Point, Poses, Scene, Scenes};
-pub use texture::{Format, Texture, Wraps};
+pub use texture::{Format, Picture, Texture, TextureSize, Wraps};
 pub use variant::Variant;
 
 use crate::Text;

@@ -237,6 +237,26 @@ fn a_shader_with_the_names_of_old_becomes_a_homework() {
 }
 
 #[test]
+fn arrays_tables_and_whole_numbers_in_textures_become_a_homework() {
+    let written = Written::from(&["tiles.frag"]);
+    written.tells("float(tile)", "float(tile) + 1.0");
+    for (from, to) in [
+        ("texelFetch(map, cell, 0)", "texelFetch(map, cell.yx, 0)"),
+        ("(c * (size - 1.0) + 0.5) / size", "c"),
+        ("texture(ramp, uv.x)", "texture(ramp, uv.y)"),
+    ] {
+        assert_eq!(written.graded(&[(from, to)])["verdict"], "wrong", "{to}");
+    }
+    // Texels are read in other ways as well.
+    let by_place = [("texelFetch(map, cell, 0)", "texture(map, (vec2(cell) + 0.5) / vec2(cells))")];
+    assert_eq!(written.graded(&by_place)["verdict"], "correct");
+    let report = written.graded(&[("uniform usampler2D map", "uniform isampler2D map"), ("uint tile", "int tile")]);
+    assert_eq!(report["verdict"], "rejected");
+    let said = report["diagnostics"][0]["message"].as_str().unwrap();
+    assert!(said.contains("`isampler2D`") && said.contains("`usampler2D`"), "{said}");
+}
+
+#[test]
 fn what_stands_between_marks_is_not_handed_out() {
     let written = Written::from(&["marked.frag"]);
     written.grades();

@@ -39,9 +39,13 @@ fn an_error_in_a_solution_is_named_with_line_and_column() {
         &["es.frag, line 1: #version 300 es is not desktop GLSL"],
         "#version 300 es",
     );
-    let sampler =
-        "#version 330 core\nuniform sampler3D fog;\nin vec3 p;\nout vec4 c;\nvoid main() { c = texture(fog, p); }\n";
-    refused("a.frag", sampler, &["line 2, column 19: `fog` is a sampler3D", "sampler2D and samplerCube"], "sampler3D");
+    let sampler = "#version 400 core\nuniform samplerCubeArray fog;\nin vec4 p;\nout vec4 c;\nvoid main() { c = texture(fog, p); }\n";
+    refused(
+        "a.frag",
+        sampler,
+        &["line 2, column 26: `fog` is a samplerCubeArray", "sampler3D and samplerCube"],
+        "samplerCubeArray",
+    );
 }
 
 #[test]

@@ -8,7 +8,7 @@ pub use depths::Depths;
 pub use sample::Lookup;
 
 use super::code::Slot;
-use super::types::{Dimension, Sampler};
+use super::types::{Dimension, Sampler, Scalar};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::sync::LazyLock;
@@ -132,6 +132,8 @@ pub struct Texture {
     pub dimension: Dimension,
     /// Whether it has layers.
     pub array: bool,
+    /// What its texels count in: `Float`, or whole numbers.
+    pub texel: Scalar,
     /// The pictures, largest first.
     pub levels: Vec<Level>,
     /// For places closer together than texels.
@@ -156,6 +158,7 @@ impl Texture {
         Self {
             dimension: Dimension::Two,
             array: false,
+            texel: Scalar::Float,
             levels: vec![Level { size: [width, height, 1], texels: texels.into() }],
             magnify: Filter::Nearest,
             minify: Filter::Nearest,
@@ -174,11 +177,18 @@ impl Texture {
         Self { dimension: Dimension::Cube, levels, wrap: [Wrap::ClampToEdge; 3], ..flat }
     }
 
+    /// The sampler that reads it.
+    pub fn sampler(&self) -> Sampler {
+        let Self { dimension, array, texel, .. } = *self;
+        Sampler { dimension, array, shadow: self.compare.is_some(), texel }
+    }
+
     /// Whether a sampler of this kind may read it. A texture with a comparison is read without it by a sampler that makes none:
     /// a host program switches the comparison on for the one and off for the other.
     pub fn fits(&self, sampler: Sampler) -> bool {
         self.dimension == sampler.dimension
             && self.array == sampler.array
+            && self.texel == sampler.texel
             && (self.compare.is_some() || !sampler.shadow)
             && !self.levels.is_empty()
             && self

@@ -1,12 +1,13 @@
 //! Textures, as `assignment.toml` has them.
 
-use crate::interpreter::{Compare, Filter, Wrap};
+use crate::interpreter::{Compare, Filter, Scalar, Wrap};
 use crate::texture::{Colour, Generator};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use toml::Spanned;
 
-/// A texture: its picture is that of `file`, of `cube` or of `generate`, or depths that a pass draws.
+/// A texture: its picture is that of `file` or of `generate`, its pictures are those of `cube`, `layers` or `slices`, or it is depths
+/// that a pass draws.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Texture {
@@ -19,9 +20,13 @@ pub struct Texture {
     pub cube: Option<[String; 6]>,
     /// A picture that is computed.
     pub generate: Option<Generator>,
-    /// Width and height of a picture that is computed or drawn.
-    pub size: Option<[u32; 2]>,
-    /// How the texels of a picture that is computed are kept.
+    /// The pictures of an array of textures, from layer 0 on.
+    pub layers: Option<Vec<Picture>>,
+    /// The pictures of a texture of three dimensions, from the lowest third coordinate on.
+    pub slices: Option<Vec<Picture>>,
+    /// Width and height of a picture that is computed or drawn; one number for a texture of one dimension.
+    pub size: Option<TextureSize>,
+    /// How texels are kept.
     pub format: Option<Format>,
     /// Whether the last row of a file is the first row of texels, so that the picture stands upright.
     pub flip: Option<bool>,
@@ -40,6 +45,42 @@ pub struct Texture {
     pub srgb: bool,
 }
 
+/// One of several pictures: a PNG in the folder, or one that is computed.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(untagged, expecting = "write the name of a PNG, or a picture that is computed, such as { checker = {} }")]
+pub enum Picture {
+    /// The file.
+    File(String),
+    /// The computed one.
+    Generated(Generator),
+}
+
+/// How large a picture is.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(untagged, expecting = "write width and height, such as [64, 64], or one number for a texture of one dimension")]
+pub enum TextureSize {
+    /// So many texels of one dimension.
+    Line(u32),
+    /// Width and height.
+    Flat([u32; 2]),
+}
+
+impl Default for TextureSize {
+    fn default() -> Self {
+        Self::Flat([256; 2])
+    }
+}
+
+impl TextureSize {
+    /// Width and height.
+    pub fn sides(self) -> [u32; 2] {
+        match self {
+            Self::Line(texels) => [texels, 1],
+            Self::Flat(sides) => sides,
+        }
+    }
+}
+
 /// How texels are kept.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
@@ -49,6 +90,10 @@ pub enum Format {
     Rgba8,
     /// Four floats.
     Rgba32f,
+    /// Four whole numbers, which an `isampler…` reads.
+    Rgba32i,
+    /// Four whole numbers without a sign, which a `usampler…` reads.
+    Rgba32ui,
     /// Depths in 24 bits of fixed point, which a pass draws.
     Depth24,
     /// Depths as floats, which a pass draws.
@@ -58,6 +103,15 @@ pub enum Format {
 }
 
 impl Format {
+    /// What a sampler reads of it.
+    pub fn texel(self) -> Scalar {
+        match self {
+            Self::Rgba32i => Scalar::Int,
+            Self::Rgba32ui => Scalar::Uint,
+            _ => Scalar::Float,
+        }
+    }
+
     /// Whether it holds depths.
     pub fn is_depth(self) -> bool {
         matches!(self, Self::Depth24 | Self::Depth32f | Self::Moments)

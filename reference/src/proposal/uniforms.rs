@@ -11,7 +11,7 @@ use super::names::{self, NameWords, Space};
 use super::shader_test::ShaderTest;
 use super::source::SolutionFile;
 use crate::assignment::{AssignmentError, both};
-use crate::interpreter::{Dimension, ProgramVariable, Scalar, Stage, Type};
+use crate::interpreter::{ProgramVariable, Scalar, Stage, Type};
 use space::negated;
 pub(super) use space::usual_space;
 use std::collections::HashMap;
@@ -109,27 +109,21 @@ fn leaf(
 ) -> Result<ProposedValue, AssignmentError> {
     let (name, kind) = (NameWords::of(&uniform.name), &uniform.kind);
     if let Type::Sampler(sampler) = kind {
-        let is_known = matches!(sampler.dimension, Dimension::Two | Dimension::Cube)
-            && !sampler.array
-            && !sampler.shadow
-            && sampler.texel == Scalar::Float;
         let path = &uniform.name;
         let refused = || {
-            source.wrong(uniform.line,
+            let known = "sampler1D, sampler2D, sampler2DArray, sampler3D and samplerCube";
+            let ja = known.replace(" and ", "、").replace(", ", "、");
+            source.wrong(
+                uniform.line,
                 both(
+                    format!("`{path}` is a {kind}: a homework's textures are read by {known}; declare one of them"),
                     format!(
-                        "`{path}` is a {kind}: a homework's textures are read by sampler2D and samplerCube; declare one of them"
-                    ),
-                    format!(
-                        "`{path}` は {kind} です。課題のテクスチャを読めるのは sampler2D と samplerCube です。どちらかで宣言してください"
+                        "`{path}` は {kind} です。課題のテクスチャを読めるのは {ja} です。どれかで宣言してください"
                     ),
                 ),
             )
         };
-        return match is_known {
-            true => Ok(ProposedValue::Texture(textures.of(&uniform.name, sampler.dimension == Dimension::Cube))),
-            false => Err(refused()),
-        };
+        return textures.of(path, *sampler).map(ProposedValue::Texture).ok_or_else(refused);
     }
     if let Some(line) = by_role(&uniform.name, &name, kind, names::space_of(&name, space)) {
         return Ok(ProposedValue::Line(line));

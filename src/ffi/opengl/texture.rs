@@ -2,20 +2,34 @@
 
 use super::Driver;
 use glow::HasContext;
-use reference::interpreter::{Compare, Dimension, Filter, Texels as Kept, Texture, Wrap};
+use reference::interpreter::{Compare, Dimension, Filter, Scalar, Texels as Kept, Texture, Wrap};
 
 impl Driver {
     /// A texture, bound to the unit that is active.
     pub(super) fn upload(&self, texture: &Texture) -> glow::Texture {
         let gl = self.gl();
         let level = &texture.levels[0];
-        let [width, height, _] = level.size.map(|side| i32::try_from(side).expect("a side"));
-        let is_cube = texture.dimension == Dimension::Cube;
-        let target = if is_cube { glow::TEXTURE_CUBE_MAP } else { glow::TEXTURE_2D };
+        let [width, height, depth] = level.size.map(|side| i32::try_from(side).expect("a side"));
+        let target = match (texture.dimension, texture.array) {
+            (Dimension::One, _) => glow::TEXTURE_1D,
+            (Dimension::Three, _) => glow::TEXTURE_3D,
+            (Dimension::Cube, _) => glow::TEXTURE_CUBE_MAP,
+            (_, true) => glow::TEXTURE_2D_ARRAY,
+            (_, false) => glow::TEXTURE_2D,
+        };
         let floats: Vec<[f32; 4]>;
+        let whole: Vec<[i32; 4]>;
         let (format, kind, texels): (_, _, &[u8]) = match &level.texels {
             Kept::Bytes(texels) => (glow::RGBA8, glow::UNSIGNED_BYTE, texels.as_flattened()),
             Kept::Srgb(texels) => (glow::SRGB8_ALPHA8, glow::UNSIGNED_BYTE, texels.as_flattened()),
+            Kept::Numbers(texels) if texture.texel != Scalar::Float => {
+                whole = texels.iter().map(|texel| texel.map(|number| number as i32)).collect();
+                let (format, kind) = match texture.texel {
+                    Scalar::Uint => (glow::RGBA32UI, glow::UNSIGNED_INT),
+                    _ => (glow::RGBA32I, glow::INT),
+                };
+                (format, kind, bytemuck::cast_slice(&whole))
+            }
             Kept::Numbers(texels) => {
                 floats = texels.iter().map(|texel| texel.map(|number| number as f32)).collect();
                 (glow::RGBA32F, glow::FLOAT, bytemuck::cast_slice(&floats))
@@ -29,9 +43,10 @@ impl Driver {
         let channels = match format {
             glow::DEPTH_COMPONENT32F => glow::DEPTH_COMPONENT,
             glow::RG32F => glow::RG,
+            glow::RGBA32I | glow::RGBA32UI => glow::RGBA_INTEGER,
             _ => glow::RGBA,
         };
-        let faces = if is_cube { 6 } else { 1 };
+        let faces = if target == glow::TEXTURE_CUBE_MAP { 6 } else { 1 };
         assert_eq!(texels.len() % faces, 0);
         let wrap = |wrap: Wrap| match wrap {
             Wrap::Repeat => glow::REPEAT,
@@ -45,9 +60,19 @@ impl Driver {
             let name = gl.create_texture().expect("a texture");
             gl.bind_texture(target, Some(name));
             for (face, texels) in (0..).zip(texels.chunks_exact(texels.len() / faces)) {
-                let target = if is_cube { glow::TEXTURE_CUBE_MAP_POSITIVE_X + face } else { target };
                 let texels = glow::PixelUnpackData::Slice(Some(texels));
-                gl.tex_image_2d(target, 0, format.cast_signed(), width, height, 0, channels, kind, texels);
+                let kept = format.cast_signed();
+                match target {
+                    glow::TEXTURE_1D => gl.tex_image_1d(target, 0, kept, width, 0, channels, kind, texels),
+                    glow::TEXTURE_3D | glow::TEXTURE_2D_ARRAY => {
+                        gl.tex_image_3d(target, 0, kept, width, height, depth, 0, channels, kind, texels);
+                    }
+                    glow::TEXTURE_CUBE_MAP => {
+                        let face = glow::TEXTURE_CUBE_MAP_POSITIVE_X + face;
+                        gl.tex_image_2d(face, 0, kept, width, height, 0, channels, kind, texels);
+                    }
+                    _ => gl.tex_image_2d(target, 0, kept, width, height, 0, channels, kind, texels),
+                }
             }
             if let Some(compare) = texture.compare {
                 let mode = glow::COMPARE_REF_TO_TEXTURE.cast_signed();

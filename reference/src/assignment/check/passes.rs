@@ -77,7 +77,7 @@ pub(super) fn pass(
             ),
         ));
     }
-    let [width, height] = target.size.unwrap_or([256; 2]);
+    let [width, height] = target.size.unwrap_or_default().sides();
     if !entry.polygon_offset.iter().all(|number| number.is_finite()) {
         return Err(wrong("`polygon_offset` is two numbers".into(), "`polygon_offset` は 2 つの数です".into()));
     }

@@ -1,11 +1,13 @@
 //! The textures of an assignment.
 
+mod pictures;
+
 use super::{CheckResult, passes};
 use crate::Folder;
 use crate::assignment::{AssignmentError, both, error};
-use crate::interpreter::{Compare, Depths, Filter, Texels, Texture, Wrap};
+use crate::interpreter::{Compare, Depths, Filter, Scalar, Texels, Texture, Wrap};
 use crate::manifest::{self, Format};
-use crate::texture::{BrokenPicture, Generator, TexturePicture, read};
+use pictures::TextureShape;
 
 /// More textures than this are refused: OpenGL promises room for so many in a stage.
 const MOST_TEXTURES: usize = 16;
@@ -85,15 +87,6 @@ struct TextureReader<'a> {
     place_at: &'a dyn Fn(usize) -> String,
 }
 
-/// The pictures of a texture, one after the other.
-struct TexturePictures {
-    /// One, or six.
-    faces: usize,
-    width: usize,
-    height: usize,
-    texels: Texels,
-}
-
 impl TextureReader<'_> {
     fn wrong(&self, en: impl Into<String>, ja: impl Into<String>) -> AssignmentError {
         error(place(self.entry, self.place_at), both(en, ja))
@@ -116,35 +109,59 @@ impl TextureReader<'_> {
                 "`compare` は深度のためのものです。取り除くか、`format = \"depth24\"` と書いてください",
             ));
         }
-        let TexturePictures { faces, width, height, texels } = match (&entry.file, &entry.cube, &entry.generate) {
-            (Some(file), None, None) => self.files(&[file], room)?,
-            (None, Some(files), None) => self.files(&files.each_ref().map(String::as_str), room)?,
-            (None, None, Some(generator)) => self.generated(generator, room)?,
+        if self.format() != Format::Rgba8 && entry.srgb {
+            return Err(self.wrong(
+                "`srgb` decodes bytes: remove it, or write `format = \"rgba8\"`",
+                "`srgb` は 8 ビットの値を変換します。取り除くか、`format = \"rgba8\"` と書いてください",
+            ));
+        }
+        let pictures = match (&entry.file, &entry.cube, &entry.generate, &entry.layers, &entry.slices) {
+            (Some(file), None, None, None, None) => self.files(&[file], room)?,
+            (None, Some(files), None, None, None) => self.files(&files.each_ref().map(String::as_str), room)?,
+            (None, None, Some(generator), None, None) => self.generated(generator, room)?,
+            (None, None, None, Some(layers), None) => self.several(layers, TextureShape::Layers, room)?,
+            (None, None, None, None, Some(slices)) => self.several(slices, TextureShape::Slices, room)?,
             _ => {
                 return Err(self.wrong(
-                    "write one of `file`, `cube` and `generate`",
-                    "`file`、`cube`、`generate` のうち 1 つだけを書いてください",
+                    "write one of `file`, `cube`, `generate`, `layers` and `slices`",
+                    "`file`、`cube`、`generate`、`layers`、`slices` のうち 1 つだけを書いてください",
                 ));
             }
         };
-        let is_cube = faces > 1;
-        let bare = if is_cube { Texture::cube(width, texels) } else { Texture::two_dimensional(width, height, texels) };
-        let filter = entry.filter.unwrap_or(Filter::Linear);
-        let wrap = self.wrap(is_cube)?;
+        let filter = self.filter()?;
+        let wrap = self.wrap(pictures.shape == TextureShape::Cube)?;
+        let bare = pictures.texture(self.format().texel());
         Ok(Texture { magnify: filter, minify: filter, wrap, border: self.border(wrap)?, ..bare })
+    }
+
+    fn filter(&self) -> CheckResult<Filter> {
+        let is_whole = self.is_whole();
+        match self.entry.filter {
+            Some(Filter::Linear) if is_whole => Err(self.wrong(
+                "whole numbers are not mixed: write `filter = \"nearest\"`, or nothing",
+                "整数のテクセルは補間できません。`filter = \"nearest\"` と書くか、取り除いてください",
+            )),
+            said => Ok(said.unwrap_or(if is_whole { Filter::Nearest } else { Filter::Linear })),
+        }
+    }
+
+    /// Whether its texels are whole numbers.
+    fn is_whole(&self) -> bool {
+        self.format().texel() != Scalar::Float
     }
 
     /// Depths that a pass draws, as probes read them.
     fn depths(&self, pictures: usize) -> CheckResult<Texture> {
         let entry = self.entry;
         let is_picture = entry.file.is_some() || entry.cube.is_some() || entry.generate.is_some();
+        let is_picture = is_picture || entry.layers.is_some() || entry.slices.is_some();
         if is_picture || entry.flip.is_some() || entry.srgb {
             return Err(self.wrong(
-                "depths are drawn by a [[pass]]: remove `file`, `cube`, `generate`, `flip` and `srgb`",
-                "深度は [[pass]] が描きます。`file`、`cube`、`generate`、`flip`、`srgb` を取り除いてください",
+                "depths are drawn by a [[pass]]: remove `file`, `cube`, `generate`, `layers`, `slices`, `flip` and `srgb`",
+                "深度は [[pass]] が描きます。`file`、`cube`、`generate`、`layers`、`slices`、`flip`、`srgb` を取り除いてください",
             ));
         }
-        let [width, height] = entry.size.unwrap_or([256; 2]).map(|side| side as usize);
+        let [width, height] = self.flat_size()?;
         let is_small = width.max(height) <= LONGEST_SIDE && width * height * (pictures + 1) <= MOST_DEPTHS;
         if width * height == 0 || !is_small {
             return Err(self.wrong(
@@ -189,103 +206,6 @@ impl TextureReader<'_> {
         })
     }
 
-    /// The picture of a file, or those of six.
-    fn files(&self, names: &[&str], room: usize) -> CheckResult<TexturePictures> {
-        let entry = self.entry;
-        if entry.size.is_some() || entry.format.is_some() {
-            return Err(self.wrong(
-                "`size` and `format` belong to `generate`, and a file has its own: remove them",
-                "`size` と `format` は `generate` のためのものです。ファイルでは使わないので、取り除いてください",
-            ));
-        }
-        // OpenGL takes the rows of a cube's faces from above.
-        let flip = entry.flip.unwrap_or(names.len() == 1);
-        let mut size = None;
-        let mut texels = Vec::new();
-        for name in names {
-            let picture = self.picture(name, room / names.len())?;
-            let own = (picture.width, picture.height);
-            if names.len() > 1 && (own.0 != own.1 || size.is_some_and(|first| first != own)) {
-                let (width, height) = own;
-                return Err(self.in_file(
-                    name,
-                    format!("has {width} × {height} pixels: the six faces of a cube are squares of one size"),
-                    format!(
-                        "{width} × {height} 画素です。キューブマップの 6 面は、すべて同じ大きさの正方形にしてください"
-                    ),
-                ));
-            }
-            size = Some(own);
-            texels.extend(if flip { picture.flipped().texels } else { picture.texels });
-        }
-        let (width, height) = size.unwrap_or_default();
-        Ok(TexturePictures { faces: names.len(), width, height, texels: self.bytes(texels) })
-    }
-
-    fn bytes(&self, texels: Vec<[u8; 4]>) -> Texels {
-        if self.entry.srgb { Texels::Srgb(texels) } else { Texels::Bytes(texels) }
-    }
-
-    /// The picture of a file, the first row first.
-    fn picture(&self, name: &str, room: usize) -> CheckResult<TexturePicture<u8>> {
-        let bytes = self.folder.bytes(name);
-        let bytes = bytes.map_err(|missing| AssignmentError { entry: Some(self.name()), ..missing })?;
-        let picture = read(bytes, room).map_err(|broken| match broken {
-            BrokenPicture::TooLarge(width, height) => self.too_large(Some(name), [width as usize, height as usize]),
-            BrokenPicture::Not(what) => self.in_file(
-                name,
-                format!("is {what}: save it as PNG"),
-                format!("PNG ではありません ({what})。PNG として保存してください"),
-            ),
-            BrokenPicture::Damaged(what) => self.in_file(
-                name,
-                format!("is no PNG, or damaged ({what}): open it in a picture editor, and save it as PNG again"),
-                format!("PNG ではないか、壊れています ({what})。画像ソフトで開き、PNG として保存し直してください"),
-            ),
-        })?;
-        let is_too_long = picture.width.max(picture.height) > LONGEST_SIDE;
-        if is_too_long { Err(self.too_large(Some(name), [picture.width, picture.height])) } else { Ok(picture) }
-    }
-
-    fn generated(&self, generator: &Generator, room: usize) -> CheckResult<TexturePictures> {
-        let entry = self.entry;
-        if entry.flip.is_some() {
-            return Err(self
-                .wrong("`flip` belongs to files: remove it", "`flip` はファイルのためのものです。取り除いてください"));
-        }
-        let is_float = self.format() == Format::Rgba32f;
-        if is_float && entry.srgb {
-            return Err(self.wrong(
-                "`srgb` decodes bytes: remove it, or write `format = \"rgba8\"`",
-                "`srgb` は 8 ビットの値を変換します。取り除くか、`format = \"rgba8\"` と書いてください",
-            ));
-        }
-        let faces = if generator.is_cube() { 6 } else { 1 };
-        let size = entry.size.unwrap_or([256; 2]).map(|side| side as usize);
-        if size.contains(&0) || faces > 1 && size[0] != size[1] {
-            return Err(self.wrong(
-                "`size` is width and height in texels, each at least 1; the faces of a sky are squares",
-                "`size` は幅と高さです。どちらも 1 以上にしてください。`sky` の面は正方形です",
-            ));
-        }
-        let each = faces * if is_float { FLOATS } else { 1 };
-        let is_small = size[0].max(size[1]) <= LONGEST_SIDE && size[0] * size[1] <= room / each;
-        if !is_small {
-            return Err(self.too_large(None, size));
-        }
-        let pictures = generator.pictures(size).map_err(|message| error(place(entry, self.place_at), message))?;
-        let numbers: Vec<[f64; 4]> = pictures.into_iter().flat_map(|picture| picture.texels).collect();
-        let texels = if is_float {
-            Texels::Numbers(numbers.into_iter().map(|texel| texel.map(|number| f64::from(number as f32))).collect())
-        } else {
-            if !numbers.iter().flatten().all(|number| (0.0..=1.0).contains(number)) {
-                return Err(self.beyond("generate"));
-            }
-            self.bytes(numbers.into_iter().map(|texel| texel.map(|number| (number * 255.0).round() as u8)).collect())
-        };
-        Ok(TexturePictures { faces, width: size[0], height: size[1], texels })
-    }
-
     fn wrap(&self, is_cube: bool) -> CheckResult<[Wrap; 3]> {
         let said = self.entry.wrap.map(manifest::Wraps::each);
         if is_cube && said.is_some_and(|wrap| wrap != [Wrap::ClampToEdge; 3]) {
@@ -305,6 +225,12 @@ impl TextureReader<'_> {
                 "`border` が見えるのは `wrap = \"clamp-to-border\"` のときだけです。それも書くか、取り除いてください",
             ));
         }
+        if self.is_whole() {
+            return Err(self.wrong(
+                "whole numbers have no border: write another `wrap`",
+                "整数のテクスチャに `border` はありません。別の `wrap` を書いてください",
+            ));
+        }
         if self.format() == Format::Rgba8 && !border.0.iter().all(|number| (0.0..=1.0).contains(number)) {
             return Err(self.beyond("border"));
         }
@@ -313,30 +239,5 @@ impl TextureReader<'_> {
 
     fn format(&self) -> Format {
         self.entry.format.unwrap_or_default()
-    }
-
-    /// Bytes hold 0 to 1.
-    fn beyond(&self, key: &str) -> AssignmentError {
-        self.wrong(
-            format!("`{key}` has a colour beyond 0 to 1: keep to that, or write `format = \"rgba32f\"` with `generate`"),
-            format!(
-                "`{key}` に 0 から 1 の範囲を超える色があります。範囲に収めるか、`generate` に `format = \"rgba32f\"` を添えてください"
-            ),
-        )
-    }
-
-    fn too_large(&self, file: Option<&str>, [width, height]: [usize; 2]) -> AssignmentError {
-        let en = format!(
-            "{width} × {height} pixels are too many: a side has at most {LONGEST_SIDE}, and all textures have at most \
-             {MOST_TEXELS}, of which a float texel counts as {FLOATS}. Make it smaller"
-        );
-        let ja = format!(
-            "{width} × {height} 画素は大きすぎます。一辺は {LONGEST_SIDE} 画素以下、全テクスチャの合計は {MOST_TEXELS} 画素以下です \
-             (float の画素は {FLOATS} 画素と数えます)。小さくしてください"
-        );
-        match file {
-            Some(file) => self.in_file(file, en, ja),
-            None => self.wrong(en, ja),
-        }
     }
 }

@@ -41,6 +41,33 @@ fn a_texture_is_as_its_entry_says() {
     assert_eq!((sky.dimension, sky.levels[0].size), (Dimension::Cube, [32, 32, 6]));
 }
 
+#[test]
+fn pictures_are_layers_or_slices_and_a_line_has_one_coordinate() {
+    let read = |lines: &str| {
+        let manifest = changed(MANIFEST, "file = \"weave.png\"", lines);
+        let text = manifest.text(MANIFEST).expect("a text").to_owned();
+        let wrong = refused(manifest);
+        // The folder has a sampler2D for it; what it would be read by is said.
+        wrong
+            .en
+            .split("is read by a ")
+            .nth(1)
+            .unwrap_or_else(|| panic!("{text}: {}", wrong.en))
+            .split(':')
+            .next()
+            .map(str::to_owned)
+    };
+    for (lines, kind) in [
+        ("layers = [\"weave.png\", \"weave.png\"]", "sampler2DArray"),
+        ("slices = [{ checker = {} }, { noise = {} }]\nsize = [4, 4]", "sampler3D"),
+        ("generate = { checker = {} }\nsize = 8", "sampler1D"),
+        ("generate = { checker = {} }\nformat = \"rgba32i\"\nfilter = \"nearest\"", "isampler2D"),
+        ("layers = [\"weave.png\"]\nformat = \"rgba32ui\"", "usampler2DArray"),
+    ] {
+        assert_eq!(read(lines).as_deref(), Some(kind), "{lines}");
+    }
+}
+
 /// A square PNG whose rows are given from above; a pixel's red is its number.
 fn png(numbers: [u8; 4]) -> Vec<u8> {
     let mut bytes = Vec::new();
@@ -76,12 +103,18 @@ fn a_cube_has_its_faces_in_order_and_the_rows_as_they_stand() {
 fn an_entry_that_makes_no_texture_is_named_with_what_to_try() {
     let size = "size = [60, 40]";
     for (name, from, to, en, ja) in [
-        ("weave", "file = \"weave.png\"\n", "", "write one of `file`, `cube` and `generate`", "のうち 1 つだけ"),
+        (
+            "weave",
+            "file = \"weave.png\"\n",
+            "",
+            "write one of `file`, `cube`, `generate`, `layers` and `slices`",
+            "のうち 1 つだけ",
+        ),
         (
             "weave",
             "file = \"weave.png\"",
             "file = \"weave.png\"\nsize = [8, 8]",
-            "belong to `generate`",
+            "`size` belongs to `generate`",
             "ファイルでは使わない",
         ),
         (
@@ -96,6 +129,30 @@ fn an_entry_that_makes_no_texture_is_named_with_what_to_try() {
         ("dust", size, "size = [4000, 4000]", "4000 × 4000 pixels are too many", "大きすぎます"),
         ("dust", size, "size = [100000, 1]", "a side has at most 8192", "一辺は 8192 画素以下"),
         ("dust", size, "flip = true", "`flip` belongs to files", "ファイルのためのもの"),
+        ("dust", size, "format = \"rgba32i\"\nfilter = \"linear\"", "whole numbers are not mixed", "補間できません"),
+        (
+            "dust",
+            size,
+            "format = \"rgba32ui\"\nwrap = \"clamp-to-border\"\nborder = [0, 0, 0]",
+            "have no border",
+            "`border` はありません",
+        ),
+        (
+            "weave",
+            "file = \"weave.png\"",
+            "layers = [\"weave.png\", { checker = {} }]",
+            "pictures of 20 × 12 and of 256 × 256",
+            "同じ大きさ",
+        ),
+        ("weave", "file = \"weave.png\"", "slices = []", "1 to 256 pictures", "256 枚"),
+        ("weave", "file = \"weave.png\"", "layers = [{ sky = {} }]", "a sky is a cube", "キューブマップ"),
+        (
+            "weave",
+            "file = \"weave.png\"",
+            "layers = [{ checker = {} }]\nsize = 8",
+            "one number is for `generate` alone",
+            "`generate` のとき",
+        ),
         ("dust", "cells = [5, 3]", "cells = [0, 3]", "`cells` has to be 1 to 512", "`cells` は 1 以上"),
         (
             "lamps",

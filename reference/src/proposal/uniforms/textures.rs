@@ -1,5 +1,6 @@
 //! Pictures for samplers.
 
+use crate::interpreter::{Dimension, Sampler, Scalar};
 use crate::proposal::names::NameWords;
 
 /// An entry `[[texture]]`.
@@ -82,24 +83,89 @@ const COLOURFUL: [&[&str]; 3] = [
     ],
 ];
 
+const NUMBERS: (&str, &str) = ("whole numbers", "整数");
+
+const RAMP: &str = "generate = { gradient = { rows = [[[0.1, 0.1, 0.3], [0.9, 0.5, 0.2], [1, 1, 0.8]]] } }";
+
+/// Whole numbers from 0 to 3, which are other ones in each channel.
+const WHOLE: [&str; 2] = [
+    "generate = { noise = { seed = 4, cells = [8, 6], octaves = 1, colours = [[0, 3, 0, 0], [3, 0, 3, 1]] } }",
+    "generate = { noise = { seed = 8, cells = [8, 6], octaves = 1, colours = [[0, 3, 0, 0], [3, 0, 3, 1]] } }",
+];
+
+/// Pictures that are told apart, in each of which swapped coordinates show.
+const COLOURS: [&str; 4] = [
+    "{ noise = { seed = 1, cells = [7, 5], colours = [[0.8, 0.25, 0.1], [0.95, 0.85, 0.6]] } }",
+    "{ gradient = { rows = [[[0.9, 0.2, 0.3], [0.2, 0.3, 0.9]], [[0.9, 0.8, 0.2], [0.2, 0.8, 0.4]]] } }",
+    "{ checker = { squares = [4, 2], colours = [[0.1, 0.4, 0.2], [0.7, 0.9, 0.5]] } }",
+    "{ noise = { seed = 3, cells = [5, 5], colours = [[0.1, 0.3, 0.6], [0.8, 0.95, 0.7]] } }",
+];
+
+/// Colours by their red, green and blue, somewhat turned, so that no two channels are alike.
+const TABLE: [&str; 2] = [
+    "{ gradient = { rows = [[[0.05, 0, 0.1], [0.9, 0.2, 0]], [[0.2, 0.7, 0.1], [1, 0.9, 0.3]]] } }",
+    "{ gradient = { rows = [[[0, 0.1, 0.6], [0.7, 0.1, 0.9]], [[0.1, 0.8, 0.7], [0.9, 1, 0.95]]] } }",
+];
+
+fn owned(lines: &[&str]) -> Vec<String> {
+    lines.iter().map(|line| (*line).to_owned()).collect()
+}
+
+/// A key with a list of pictures, one a line.
+fn listed(key: &str, pictures: &[&str]) -> String {
+    let each: String =
+        pictures.iter().map(|picture| format!("    {},\n", picture.trim_start_matches("generate = "))).collect();
+    format!("{key} = [\n{each}]")
+}
+
 impl ProposedTextures {
-    /// A texture for the sampler at a path.
-    pub fn of(&mut self, path: &str, is_cube: bool) -> TextureEntry {
-        let name = self.name(path);
-        let own = |lines: &[&str], what| {
-            let lines = lines.iter().map(|line| (*line).to_owned()).collect();
-            TextureEntry { name: name.clone(), lines, what }
-        };
-        if is_cube {
-            return own(&["generate = { sky = {} }", "size = [64, 64]"], ("a sky around the scene", "周囲の空"));
+    /// A texture for the sampler at a path; none where a homework has none for it.
+    pub fn of(&mut self, path: &str, sampler: Sampler) -> Option<TextureEntry> {
+        let is_whole = sampler.texel != Scalar::Float;
+        if sampler.shadow || is_whole && sampler.dimension == Dimension::Cube {
+            return None;
         }
         let words = NameWords::of(path);
+        let (mut lines, what) = match (sampler.dimension, sampler.array) {
+            (Dimension::Two, false) if is_whole => (owned(&[WHOLE[0], "size = [16, 12]"]), NUMBERS),
+            (Dimension::Two, false) => self.flat(&words),
+            (Dimension::Two, true) => {
+                let pictures: &[&str] = if is_whole { &WHOLE } else { &COLOURS };
+                (
+                    vec![listed("layers", pictures), "size = [64, 64]".to_owned()],
+                    ("some pictures of colours", "色の画像数枚"),
+                )
+            }
+            (Dimension::Three, _) => {
+                let pictures: &[&str] = if is_whole { &WHOLE } else { &TABLE };
+                let size = if is_whole { "size = [16, 12]" } else { "size = [4, 4]" };
+                let lines = [listed("slices", pictures), size.to_owned(), "wrap = \"clamp-to-edge\"".to_owned()];
+                (lines.to_vec(), ("a table of colours", "色の表"))
+            }
+            (Dimension::One, false) if is_whole => (owned(&[WHOLE[0], "size = 16"]), NUMBERS),
+            (Dimension::One, false) => {
+                (owned(&[RAMP, "size = 64", "wrap = \"clamp-to-edge\""]), ("a ramp of colours", "色の階調"))
+            }
+            (Dimension::Cube, false) => {
+                (owned(&["generate = { sky = {} }", "size = [64, 64]"]), ("a sky around the scene", "周囲の空"))
+            }
+            _ => return None,
+        };
+        if is_whole {
+            let format = if sampler.texel == Scalar::Int { "rgba32i" } else { "rgba32ui" };
+            lines.push(format!("format = {format:?} # whole numbers"));
+        }
+        Some(TextureEntry { name: self.name(path), lines, what })
+    }
+
+    /// A picture.
+    fn flat(&mut self, words: &NameWords) -> (Vec<String>, (&'static str, &'static str)) {
         if let Some((_, lines, what)) = GREY.iter().find(|(known, ..)| words.has(known) || words.is(known)) {
-            return own(lines, *what);
+            return (owned(lines), *what);
         }
         let lines = COLOURFUL[self.colourful % COLOURFUL.len()];
         self.colourful += 1;
-        own(lines, ("a picture of colours", "色の画像"))
+        (owned(lines), ("a picture of colours", "色の画像"))
     }
 
     fn name(&mut self, path: &str) -> String {

@@ -8,7 +8,7 @@ use super::values::part;
 use crate::Text;
 use crate::assignment::{MANIFEST, Uniform, both, error};
 use crate::feed::Feed;
-use crate::interpreter::{Dimension, Sampler, Scalar, Texels, Texture, Type};
+use crate::interpreter::{Sampler, Texels, Texture, Type};
 use crate::manifest;
 
 /// The textures of a folder, for samplers.
@@ -51,17 +51,13 @@ impl FolderSamplers<'_> {
             )
         })?;
         let texture = &self.textures[number];
-        if texture.fits(sampler) && sampler.texel == Scalar::Float {
+        if texture.fits(sampler) {
             return Ok(match texture.levels[0].texels {
                 Texels::Depths(_) => Feed::Drawn { first: self.entries.len(), at_probes: number },
                 _ => Feed::Texture(number),
             });
         }
-        let fitting = match (texture.dimension, texture.compare) {
-            (Dimension::Cube, _) => "samplerCube",
-            (_, Some(_)) => "sampler2DShadow",
-            (_, None) => "sampler2D",
-        };
+        let fitting = Type::Sampler(texture.sampler());
         Err(both(
             format!(
                 "it is a {kind} in the shader, and `{name}` is read by a {fitting}: declare that, or take another texture"
