@@ -257,6 +257,28 @@ fn arrays_tables_and_whole_numbers_in_textures_become_a_homework() {
 }
 
 #[test]
+fn whole_numbers_of_vertices_become_a_homework() {
+    let written = Written::from(&["skin.vert"]);
+    written.tells("bones[boneIds[i]]", "bones[i]");
+    // The same bits, without a sign.
+    assert_eq!(written.graded(&[("in ivec4 boneIds", "in uvec4 boneIds")])["verdict"], "correct");
+    let floats = written.graded(&[("in ivec4 boneIds", "in vec4 boneIds"), ("[boneIds[i]]", "[int(boneIds[i])]")]);
+    assert_eq!(floats["verdict"], "rejected");
+}
+
+#[test]
+fn switches_and_kinds_in_a_block_become_a_homework() {
+    let written = Written::from(&["workshop.frag"]);
+    written.tells("if (!lamp.isOn)", "if (i < 0)");
+    for (from, to) in [("case 1:", "case 7:"), ("case 2:", "case 7:"), ("sharpness)", "16.0)")] {
+        assert_eq!(written.graded(&[(from, to)])["verdict"], "wrong", "{to}");
+    }
+    // A block is filled with bits, in which a truth value is a whole number.
+    let number = [("bool isOn", "uint isOn"), ("!lamp.isOn", "lamp.isOn == 0u")];
+    assert_eq!(written.graded(&number)["verdict"], "correct");
+}
+
+#[test]
 fn what_stands_between_marks_is_not_handed_out() {
     let written = Written::from(&["marked.frag"]);
     written.grades();

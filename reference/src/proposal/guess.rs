@@ -83,7 +83,20 @@ const NUMBERS: &[NumberGuess] = &[
         (2.0, 6.0),
         ("number of steps", "段数"),
     ),
+    (&["white"], 4.0, (2.0, 8.0), ("white point", "白とする明るさ")),
+    (&["min", "minimum"], 0.2, (0.1, 0.35), ("least value", "最小値")),
+    (&["max", "maximum"], 0.8, (0.6, 0.95), ("greatest value", "最大値")),
 ];
+
+/// What an exponent usually is.
+pub(super) fn exponent() -> Guess {
+    Guess { value: vec![16.0], within: Some((vec![4.0], vec![48.0])), what: ("exponent", "指数") }
+}
+
+/// Whether a number's name says what it is.
+pub(super) fn is_known(name: &NameWords) -> bool {
+    row(name).is_some() || name.is_colour()
+}
 
 /// What a value of a type usually is. `nth`: how many of its kind were there before it; `is_downward`: it points away from
 /// where the light comes from.
@@ -96,17 +109,28 @@ pub(super) fn guess(name: &NameWords, kind: &Type, nth: usize, is_downward: bool
         Type::Vector(Scalar::Int | Scalar::Uint, _) => whole(name, count),
         Type::Vector(_, 1) => number(name),
         Type::Vector(_, _) => vector(name, count, nth, is_downward),
-        Type::Matrix(_, columns, rows) => {
-            let one = |at: usize| if at / usize::from(*rows) == at % usize::from(*rows) { 1.0 } else { 0.0 };
-            let _ = columns;
-            Guess {
-                value: (0..count).map(one).collect(),
-                within: None,
-                what: ("matrix that changes nothing", "単位行列"),
-            }
-        }
+        Type::Matrix(_, columns, rows) => Guess {
+            value: matrix(usize::from(*columns), usize::from(*rows), nth),
+            within: None,
+            what: ("matrix that turns a little", "少し回転させる行列"),
+        },
         _ => Guess { value: vec![0.0; count], within: None, what: ("nothing known", "不明") },
     }
+}
+
+/// A turn about z, and a small step where there is a column for it: without it, and with another one, all is elsewhere.
+fn matrix(columns: usize, rows: usize, nth: usize) -> Vec<f64> {
+    let angle = 0.3 - 0.25 * (nth % 4) as f64;
+    let step = [0.1, -0.05, 0.08].map(|step| step * (1.0 + (nth % 4) as f64));
+    let number = |column: usize, row: usize| match (column, row) {
+        (0, 0) | (1, 1) => angle.cos(),
+        (0, 1) => angle.sin(),
+        (1, 0) => -angle.sin(),
+        (3, row) if rows >= 3 && row < 3 => step[row],
+        _ => f64::from(u8::from(column == row)),
+    };
+    let all = (0..columns).flat_map(|column| (0..rows).map(move |row| (column, row)));
+    all.map(|(column, row)| (number(column, row) * 1e4).round() / 1e4).collect()
 }
 
 fn row(name: &NameWords) -> Option<&'static NumberGuess> {
@@ -157,6 +181,16 @@ fn vector(name: &NameWords, count: usize, nth: usize, is_downward: bool) -> Gues
     if name.is_position() && !name.is_colour() {
         let within = Some((filled([-3.0, 0.5, -3.0], 1.0), filled([3.0, 3.0, 3.0], 1.0)));
         return Guess { value: filled(POSITIONS[nth % POSITIONS.len()], 1.0), within, what: ("position", "位置") };
+    }
+    let end = match () {
+        () if name.has(&["min", "minimum"]) => Some(-2.5),
+        () if name.has(&["max", "maximum"]) => Some(2.5),
+        () => None,
+    };
+    if let Some(end) = end.filter(|_| !name.is_colour()) {
+        let (value, least, greatest) =
+            (filled([end; 3], 1.0), filled([end - 0.5; 3], 1.0), filled([end + 0.5; 3], 1.0));
+        return Guess { value, within: Some((least, greatest)), what: ("corner of a box", "箱の角") };
     }
     if let Some((_, value, (least, greatest), what)) = row(name).filter(|_| !name.is_colour()) {
         return Guess { value: vec![*value; count], within: Some((vec![*least], vec![*greatest])), what: *what };

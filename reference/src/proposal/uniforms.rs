@@ -4,9 +4,10 @@ mod attributes;
 mod space;
 mod textures;
 mod tree;
+mod uses;
 
 use super::FolderPlan;
-use super::guess::{Guess, guess};
+use super::guess::{self, Guess, guess};
 use super::names::{self, NameWords, Space};
 use super::shader_test::ShaderTest;
 use super::source::SolutionFile;
@@ -140,7 +141,13 @@ fn leaf(
         let nth = seen.entry(first.what.0).or_default();
         let own = guess(&name, kind, *nth, is_downward);
         *nth += 1;
-        own
+        match kind {
+            Type::Vector(Scalar::Int | Scalar::Uint, 1) if !guess::is_known(&name) => {
+                uses::cases(source, &uniform.name).unwrap_or(own)
+            }
+            &Type::FLOAT if !guess::is_known(&name) && uses::is_exponent(source, &uniform.name) => guess::exponent(),
+            _ => own,
+        }
     };
     let own = source.program.initial(uniform).filter(|own| own.iter().any(|number| *number != 0.0));
     let (value, within, what) = match own {

@@ -51,17 +51,37 @@ pub(super) fn attributes(
                 format!("carries = {said:?}")
             }
             None => {
+                let values = in_turn(name, kind, super::longest_array(&plan.sources[at]));
+                let count = values.len();
                 plan.guessed(
-                    format!("input `{name}`: one of three values for each vertex in turn"),
-                    format!("input `{name}`: 頂点ごとに 3 つの値を順に渡します"),
+                    format!("input `{name}`: one of {count} values for each vertex in turn"),
+                    format!("input `{name}`: 頂点ごとに {count} つの値を順に渡します"),
                 );
-                let values = (0..3).map(|nth| numbers(&guess(&NameWords::of("color"), kind, nth, false).value, kind));
+                let values = values.iter().map(|value| numbers(value, kind));
                 format!("values = [{}]", values.collect::<Vec<_>>().join(", "))
             }
         };
         attributes.push(AttributeEntry { name: name.clone(), said });
     }
     Ok(attributes)
+}
+
+/// Values that vertices have in turn: numbers of elements, shares, or colours.
+fn in_turn(name: &str, kind: &Type, elements: Option<usize>) -> Vec<Vec<f64>> {
+    let count = kind.slots().unwrap_or(0);
+    let name = NameWords::of(name);
+    match kind {
+        Type::Vector(Scalar::Int | Scalar::Uint, _) => {
+            let elements = elements.unwrap_or(4);
+            let value = |nth: usize| (0..count).map(|place| ((nth + place) % elements) as f64).collect();
+            (0..elements.min(4)).map(value).collect()
+        }
+        Type::Vector(Scalar::Float, 2..=4) if name.has(&["weight", "weights"]) => {
+            const SHARES: [[f64; 4]; 3] = [[0.5, 0.3, 0.15, 0.05], [0.4, 0.1, 0.3, 0.2], [0.15, 0.45, 0.05, 0.35]];
+            SHARES.iter().map(|shares| shares[..count].to_vec()).collect()
+        }
+        _ => (0..3).map(|nth| guess(&NameWords::of("color"), kind, nth, false).value).collect(),
+    }
 }
 
 /// What an attribute carries whose name is not known: what is still missing, by its type.
