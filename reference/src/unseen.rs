@@ -15,6 +15,9 @@ const GROUPS: usize = 10;
 /// A uniform is tried at its value times so much.
 const FACTORS: [f64; 9] = [0.0, 0.1, 0.3, 0.6, 2.0, 4.0, 10.0, -1.0, -4.0];
 
+/// A whole number is tried from 0 to this.
+const MOST_WHOLE: u8 = 8;
+
 /// A part without which the solution shows the same at all probes.
 #[derive(Clone, Debug)]
 pub struct UnseenPart {
@@ -57,6 +60,36 @@ impl Assignment {
         widest(unseen)
     }
 
+    /// The uniforms of the handed-in stages whose value stays, and with other values of which the solution shows the same at all probes.
+    pub fn idle_uniforms(&self, probes: &ProbeSet) -> Vec<&str> {
+        let (_, few) = probes.part(GROUPS);
+        let solution = AcceptedAnswer { name: String::new(), pipeline: self.pipeline.clone(), reading: None };
+        let right = self.computed_by(&solution, &few);
+        let is_handed_in = |path: &str| {
+            self.files.iter().filter(|file| file.program.is_none()).any(|file| {
+                let program = match file.stage {
+                    crate::assignment::Stage::Vertex => &self.pipeline.vertex,
+                    crate::assignment::Stage::Fragment => &self.pipeline.fragment,
+                };
+                program.uniforms().iter().any(|own| own.name == path)
+            })
+        };
+        let is_idle = |place: usize, kind: &Type| {
+            let ways = ways(kind);
+            let is_same = |way: &UniformChange| {
+                let mut other = few.clone();
+                other.groups.iter_mut().for_each(|group| group.uniforms[place] = way(&group.uniforms[place]));
+                let shown = self.computed_by(&solution, &other);
+                right.iter().zip(&shown).all(|(right, shown)| same(right, shown))
+            };
+            !ways.is_empty() && ways.iter().all(is_same)
+        };
+        let uniforms = self.interface.uniforms.iter().enumerate();
+        let constant = uniforms.filter(|(_, uniform)| matches!(uniform.feed, Feed::Constant(_)));
+        let idle = constant.filter(|(place, uniform)| is_handed_in(&uniform.path) && is_idle(*place, &uniform.kind));
+        idle.map(|(_, uniform)| uniform.path.as_str()).collect()
+    }
+
     /// Whether a part shows in one of the right pictures. `differs` says whether two pictures do.
     pub fn is_pictured(&self, unseen: &UnseenPart, right: &[Frame], differs: &dyn Fn(&Frame, &Frame) -> bool) -> bool {
         let poses = self.scene.all_poses();
@@ -69,20 +102,14 @@ impl Assignment {
         let solution = AcceptedAnswer { name: String::new(), pipeline: self.pipeline.clone(), reading: None };
         let mut found: Vec<Option<Revealing>> = vec![None; parts.len()];
         for (place, uniform) in self.interface.uniforms.iter().enumerate() {
-            let is_of_floats = matches!(uniform.kind, Type::Vector(Scalar::Float, _));
-            if !is_of_floats || !matches!(uniform.feed, Feed::Constant(_)) {
+            if !matches!(uniform.feed, Feed::Constant(_)) {
                 continue;
             }
-            let count = uniform.kind.slots().unwrap_or(0);
-            // The fourth of four numbers is often another thing than the others.
-            let ranges = std::iter::once(0..count).chain((count == 4).then_some(3..4));
-            let ways = FACTORS.into_iter().flat_map(|factor| ranges.clone().map(move |scaled| (factor, scaled)));
-            for (factor, scaled) in ways {
+            for way in ways(&uniform.kind) {
                 let mut other = few.clone();
-                let by: Vec<f64> = (0..count).map(|at| if scaled.contains(&at) { factor } else { 1.0 }).collect();
                 for group in &mut other.groups {
                     let value = &mut group.uniforms[place];
-                    *value = rounded(value.scaled(&by));
+                    *value = way(value);
                 }
                 let right = self.computed_by(&solution, &other);
                 let is_defined = right.iter().all(|(colour, position)| colour.is_finite() && position.is_finite());
@@ -98,6 +125,34 @@ impl Assignment {
             }
         }
         found
+    }
+}
+
+/// How a value is changed.
+type UniformChange = Box<dyn Fn(&Value) -> Value>;
+
+/// The other values that a uniform of this type is tried with.
+fn ways(kind: &Type) -> Vec<UniformChange> {
+    let count = kind.slots().unwrap_or(0);
+    match kind {
+        Type::Vector(Scalar::Float, _) => {
+            // The fourth of four numbers is often another thing than the others.
+            let ranges = std::iter::once(0..count).chain((count == 4).then_some(3..4));
+            let all = FACTORS.into_iter().flat_map(|factor| ranges.clone().map(move |scaled| (factor, scaled)));
+            let way = |(factor, scaled): (f64, std::ops::Range<usize>)| -> UniformChange {
+                let by: Vec<f64> = (0..count).map(|at| if scaled.contains(&at) { factor } else { 1.0 }).collect();
+                Box::new(move |value| rounded(value.scaled(&by)))
+            };
+            all.map(way).collect()
+        }
+        Type::Vector(scalar @ (Scalar::Int | Scalar::Uint | Scalar::Bool), _) => {
+            let most = if *scalar == Scalar::Bool { 1 } else { MOST_WHOLE };
+            let way = |number: u8| -> UniformChange {
+                Box::new(move |value| Value::of(value.kind().clone(), vec![f64::from(number); count]))
+            };
+            (0..=most).map(way).collect()
+        }
+        _ => Vec::new(),
     }
 }
 

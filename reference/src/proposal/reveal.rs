@@ -1,6 +1,7 @@
 //! Bounds of uniforms that reach so far that parts of the solution show which else show nowhere.
 
 use super::FolderPlan;
+use super::uniforms::numbers;
 use crate::Assignment;
 use crate::unseen::{Revealing, UnseenPart};
 use std::collections::HashSet;
@@ -19,17 +20,16 @@ pub(super) fn widen(plan: &mut FolderPlan, assignment: &Assignment) {
         let Some((entry, line, [least, greatest])) = bounds_of(plan, &uniform) else { continue };
         let number = two_digits(value.float());
         let [least, greatest] = [least.min(number), greatest.max(number)];
-        let wider = format!("probe = {{ within = [{least:?}, {greatest:?}] }}");
+        let ends = numbers(&[least, greatest], value.kind());
+        let wider = format!("probe = {{ within = {ends} }}");
         let before = std::mem::replace(&mut plan.uniforms[entry].lines[line], wider);
         match Assignment::load(plan.folder()).map(|wider| wider.unseen_parts(&wider.judging_probes()).len()) {
             Ok(fewer) if fewer < count => {
                 count = fewer;
                 let (own, at) = (&part.part.own, part.part.lines.0);
                 plan.guessed(
-                    format!(
-                        "uniform `{uniform}`: within {least:?} and {greatest:?}, so that `{own}` (line {at}) shows"
-                    ),
-                    format!("uniform `{uniform}`: `{own}` ({at} 行目) が現れるように {least:?} から {greatest:?} まで"),
+                    format!("uniform `{uniform}`: within {ends}, so that `{own}` (line {at}) shows"),
+                    format!("uniform `{uniform}`: `{own}` ({at} 行目) が現れるように {ends} の範囲"),
                 );
             }
             _ => plan.uniforms[entry].lines[line] = before,

@@ -3,17 +3,29 @@
 use super::CheckWording;
 use super::shows::is_seen;
 use crate::language::Text;
-use reference::Assignment;
-use reference::interpreter::ChangedPart;
+use reference::interpreter::{ChangedPart, Scalar};
 use reference::probes::ProbeSet;
 use reference::rasteriser::Frame;
 use reference::unseen::{Revealing, UnseenPart};
+use reference::{Assignment, Value};
 
 /// So many parts are named.
 const MOST: usize = 12;
 
 /// Names the parts of the solution without which all probes and all pictures are the same, and what would show them.
 pub(super) fn say(said: CheckWording, assignment: &Assignment, probes: &ProbeSet, right: &[Frame]) {
+    for uniform in assignment.idle_uniforms(probes) {
+        said.note(&Text::new(
+            format!(
+                "uniform `{uniform}`: with other values the solution shows the same at all probes, so an answer without it has full marks. \
+                 Give what it works on other values, or leave it out of the solution"
+            ),
+            format!(
+                "uniform `{uniform}`: 値を変えても解答はどの検査点でも同じなので、使わない答えも満点になります。関係する値を変えるか、\
+                 不要なら解答から省いてください"
+            ),
+        ));
+    }
     let unseen = assignment.unseen_parts(probes);
     let unseen: Vec<&UnseenPart> = unseen.iter().filter(|one| !assignment.is_pictured(one, right, &is_seen)).collect();
     let (named, more) = unseen.split_at(unseen.len().min(MOST));
@@ -39,7 +51,7 @@ fn text(unseen: &UnseenPart, revealing: Option<&Revealing>) -> Text {
     };
     let hint = match revealing {
         Some(Revealing { uniform, value }) => {
-            let value = numbers(value.numbers());
+            let value = written(value);
             Text::new(
                 format!(
                     "It would show with `{uniform}` = {value}: let its `probe = {{ within = … }}` in assignment.toml reach that far, or give it \
@@ -68,10 +80,14 @@ fn text(unseen: &UnseenPart, revealing: Option<&Revealing>) -> Text {
     )
 }
 
-/// Numbers as `assignment.toml` has them.
-fn numbers(numbers: &[f64]) -> String {
-    let number = |number: &f64| format!("{:?}", (number * 1e3).round() / 1e3);
-    match numbers {
+/// A value as `assignment.toml` has it.
+fn written(value: &Value) -> String {
+    let is_whole = value.kind().scalar() != Some(Scalar::Float);
+    let number = |number: &f64| match is_whole {
+        true => number.to_string(),
+        false => format!("{:?}", (number * 1e3).round() / 1e3),
+    };
+    match value.numbers() {
         [one] => number(one),
         all => format!("[{}]", all.iter().map(number).collect::<Vec<_>>().join(", ")),
     }
