@@ -27,7 +27,6 @@ pub use fresh::Fresh;
 use message::Facts;
 use reference::Assignment;
 use reference::assignment::Stage;
-use reference::equation::DISCARDED;
 use reference::probes::{Crossings, EdgeDefect, Pictured, Probe, ProbeSet};
 use reference::traced::TracedProgram;
 
@@ -75,6 +74,14 @@ impl<'a> Evidence<'a> {
     }
 }
 
+impl Evidence<'_> {
+    /// The text of the fragment stage, where it has the word `discard`.
+    fn source_that_discards(&self) -> Option<&Source> {
+        let fragment = self.sources.iter().find(|(stage, _)| *stage == reference::interpreter::Stage::Fragment);
+        fragment.map(|(_, source)| *source).filter(|source| source.words().any(|(_, word)| word == "discard"))
+    }
+}
+
 /// What is to be said and credited.
 #[derive(Clone, Debug)]
 pub struct Diagnosis {
@@ -106,7 +113,7 @@ pub fn diagnose(evidence: &Evidence<'_>) -> Diagnosis {
     let probes = compare_probes(evidence);
     // A fragment stage moves nothing: what it does to the picture is the colour's affair.
     let shape = shape_agrees(evidence, &probes) || !evidence.assignment.hands_in(Stage::Vertex);
-    let cause = cause(evidence, shape).unless_refuted(evidence);
+    let cause = cause(evidence, shape).unless_refuted(evidence).unless_nothing_is_drawn(evidence);
     let mut mistakes = cause.ids();
     // Where no line of the rubric is about the position, a mistake that is found says what moved.
     let is_judged = evidence.assignment.rubric.iter().any(|line| evidence.assignment.judges_position(line));
@@ -228,14 +235,6 @@ fn shape_agrees(evidence: &Evidence<'_>, probes: &ComparedProbes) -> bool {
         && !evidence.fresh.refutes_each(is_elsewhere)
 }
 
-/// Whether every fragment is thrown away, and not by a right answer. What it is short of being right is worth nothing then: no part
-/// of it is seen.
-fn shows_nothing(evidence: &Evidence<'_>) -> bool {
-    let is_gone = |colour: glam::DVec3| colour == DISCARDED;
-    evidence.samples.iter().all(|sample| is_gone(sample.colour_f64().into()))
-        && evidence.probes.iter().any(|probe| !is_gone(probe.colour))
-}
-
 /// Judges one line of the rubric.
 fn judge(
     evidence: &Evidence<'_>,
@@ -245,8 +244,7 @@ fn judge(
     cause: &Cause,
     mistakes: &[String],
 ) -> RubricLine {
-    let is_nothing = shows_nothing(evidence) && !cause.is_written() && !evidence.assignment.judges_position(line);
-    let keeps = |id: &&str| if is_nothing { 0.0 } else { kept(evidence.assignment, line, shape, cause, id) };
+    let keeps = |id: &&str| kept(evidence.assignment, line, shape, cause, id);
     let mut culprits: Vec<&str> = mistakes.iter().map(String::as_str).filter(|id| keeps(id) < 1.0).collect();
     let kept: f64 = culprits.iter().map(keeps).product();
     // What is not there at all is not wrong in some way as well.

@@ -8,11 +8,11 @@ use super::{CONSTANTS_CHANGED, Evidence, Fresh, POSITION_CHANGED, addends, hard_
 use crate::compare::{COLOUR_TOLERANCE, POSITION_TOLERANCE, position_difference};
 use crate::render::Sample;
 use crate::report::{FrameResult, Hypothesis};
-use glam::DVec4;
+use glam::{DVec3, DVec4};
 use reference::Assignment;
 use reference::assignment::RubricLine;
 use reference::derived::is_derived;
-use reference::equation::Reads;
+use reference::equation::{DISCARDED, Reads};
 use reference::fit::{
     Alternatives, FeatureDefect, FeatureExplanation, Fit, MOST_MISTAKES, TermJudgement, explain_derived, explain_parts,
     is_right, judge_factor, judge_features, judge_terms, program_of,
@@ -24,6 +24,8 @@ const HARD_CODED: &str = "hard-coded";
 /// Nothing that is known explains a wrong answer.
 pub const UNEXPLAINED: &str = "unexplained";
 pub(super) const NEARLY_RIGHT: &str = "nearly-right";
+/// Every fragment is thrown away.
+pub(super) const NOTHING_DRAWN: &str = "nothing-drawn";
 pub(super) const PART_MISSING: &str = "part-missing";
 pub(super) const PART_SCALED: &str = "part-scaled";
 
@@ -49,6 +51,8 @@ pub(super) enum Cause {
     Parts(FeatureExplanation),
     /// The colour does not come from the equation at all.
     HardCoded,
+    /// Every fragment is thrown away, and the homework does not say why.
+    NothingDrawn,
     /// Nothing known explains it, but it is never off by much.
     NearlyRight,
     /// Nothing known explains it, and these changes of the text make it right; the ids of the lines that each one costs points.
@@ -291,12 +295,28 @@ impl Cause {
             }),
             Self::Right => fresh.refutes(assignment, &[], COLOUR_TOLERANCE),
             Self::NearlyRight => fresh.refutes(assignment, &[], NEARLY),
-            Self::HardCoded | Self::Parts(_) | Self::Repaired(_) | Self::Unexplained { .. } => false,
+            Self::HardCoded | Self::NothingDrawn | Self::Parts(_) | Self::Repaired(_) | Self::Unexplained { .. } => {
+                false
+            }
+        }
+    }
+
+    /// The cause, or that nothing is drawn: what an answer that throws everything away is short of being right is worth nothing, for no
+    /// part of it is seen.
+    pub(super) fn unless_nothing_is_drawn(self, evidence: &Evidence<'_>) -> Self {
+        let is_gone = |colour: DVec3| colour == DISCARDED;
+        let is_all_gone = evidence.samples.iter().all(|sample| is_gone(sample.colour_f64().into()));
+        let is_right = evidence.probes.iter().all(|probe| is_gone(probe.colour));
+        match evidence.source_that_discards() {
+            _ if !is_all_gone || is_right || self.is_written() => self,
+            Some(_) => Self::NothingDrawn,
+            // Nothing is ever written.
+            None => Self::Unexplained { terms: Vec::new(), findings: Vec::new() },
         }
     }
 
     /// Whether the homework says what it is worth.
-    pub(super) fn is_written(&self) -> bool {
+    fn is_written(&self) -> bool {
         let found: &[FoundMistake] = match self {
             Self::Known { found, .. } | Self::Parts(FeatureExplanation { found, .. }) => found,
             _ => &[],
@@ -314,7 +334,12 @@ impl Cause {
                     .map(|found| Hypothesis { id: found.id.clone(), form: found.form, parameter: found.parameter })
                     .collect(),
             ),
-            Self::HardCoded | Self::Parts(_) | Self::NearlyRight | Self::Repaired(_) | Self::Unexplained { .. } => None,
+            Self::HardCoded
+            | Self::NothingDrawn
+            | Self::Parts(_)
+            | Self::NearlyRight
+            | Self::Repaired(_)
+            | Self::Unexplained { .. } => None,
         }
     }
 
@@ -346,6 +371,7 @@ impl Cause {
                 ids
             }
             Self::HardCoded => vec![HARD_CODED.into()],
+            Self::NothingDrawn => vec![NOTHING_DRAWN.into()],
             Self::NearlyRight => vec![NEARLY_RIGHT.into()],
             Self::Repaired(_) => {
                 let mut ids: Vec<String> = self.repairs().map(|repaired| repaired.mistake.id.clone()).collect();

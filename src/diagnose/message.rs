@@ -129,7 +129,7 @@ impl Facts {
             // Everything stands where it should not, and nothing else is wrong.
             Cause::Known { constants, found } if constants.is_empty() && found.is_empty() => inside::find(evidence),
             Cause::Right | Cause::Parts(_) | Cause::NearlyRight => inside::find(evidence),
-            Cause::Known { .. } | Cause::HardCoded | Cause::Repaired(_) => Vec::new(),
+            Cause::Known { .. } | Cause::HardCoded | Cause::NothingDrawn | Cause::Repaired(_) => Vec::new(),
             Cause::Unexplained { findings, .. } => findings.clone(),
         };
         let mut names = Self::handed_out(evidence);
@@ -221,6 +221,13 @@ impl<'f> Blanks<'f> {
                 }
             }
             (Cause::Parts(_), _) => {}
+            (Cause::NothingDrawn, _) => {
+                let source = evidence.source_that_discards();
+                if let Some((source, line)) = source.and_then(|source| Some((source, first_use(source, &["discard"])?)))
+                {
+                    blanks.is_at(evidence, source, line);
+                }
+            }
             (Cause::Repaired(_), id) => {
                 let repaired = cause.repairs().find(|repaired| repaired.mistake.id == id);
                 blanks.place(evidence, mistake, repaired.map(|repaired| repaired.located.clone()));

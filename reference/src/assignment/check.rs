@@ -17,7 +17,7 @@ mod textures;
 mod typeset;
 mod variants;
 
-use super::{Assignment, AssignmentError, FixedStage, Gradual, HandedIn, MANIFEST, both, error};
+use super::{Assignment, AssignmentError, FixedStage, Gradual, HandedIn, MANIFEST, Stage, both, error};
 use crate::Folder;
 use crate::accepted::AcceptedAnswer;
 use crate::interpreter::Texture;
@@ -30,6 +30,9 @@ use variants::Variants;
 
 /// What is said of features.
 const OF_FEATURES: [&str; 2] = ["part-missing", "part-scaled"];
+
+/// What is said of a fragment stage that throws everything away.
+const OF_FRAGMENTS: &str = "nothing-drawn";
 
 /// Rubric lines are held as the bits of a u64.
 const MAX_LINES: usize = 64;
@@ -73,6 +76,9 @@ pub(super) fn assignment(
     let mut mistakes = mistakes::all(mistakes, &m.rubric, &mut solution, &constants, &variants, place_at)?;
     if features.iter().all(Option::is_none) {
         mistakes.retain(|mistake| !OF_FEATURES.contains(&mistake.id.as_str()));
+    }
+    if files.iter().all(|file| file.stage != Stage::Fragment) {
+        mistakes.retain(|mistake| mistake.id != OF_FRAGMENTS);
     }
     let gradual = gradual(&m, &mistakes, place_at)?;
     let probing = probing::probing(&m.probes, &constants, &solution)?;
