@@ -18,7 +18,7 @@ pub(super) use way::{answer, within};
 pub use way::{at, public_address, root, root_of};
 
 use super::errors::Problem;
-use super::store::{Result as StoreResult, StoredSubmission};
+use super::store::{Result as StoreResult, Store, StoredSubmission};
 use super::{Service, app, grading};
 use axum::Router;
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -116,24 +116,41 @@ pub async fn make(first: &Service, id: &str, title: &str) -> Result<Service, Pro
             format!("授業の短い名前は {LONGEST_ID} 文字以内の英小文字、数字、`-` で入力してください（例: cg-2027）。"),
         ));
     }
-    if first.store.courses().await?.len() >= MOST_COURSES {
+    let turn = first.course_turn.acquire().await;
+    let known = first.store.courses().await?;
+    if known.iter().any(|known| known == id) {
+        return Err(is_there(id));
+    }
+    if known.len() >= MOST_COURSES {
         return Err(Problem::unprocessable(
             format!("A service has at most {MOST_COURSES} courses beside the first. Start another service."),
             format!(
                 "1 つのサービスで扱える授業は、最初の授業のほかに {MOST_COURSES} 個までです。サービスを分けてください。"
+    let settings = first.store.course().await?.titled(title);
+    filled(first, id, async |tables| Ok(tables.set_course(&settings).await?)).await
+}
+
+/// Makes a course whose tables `fill` fills. Nobody sees it before they are filled: where that fails, there is no course.
+async fn filled(
+    first: &Service,
+    id: &str,
+    fill: impl AsyncFnOnce(&Store) -> Result<(), Problem>,
+) -> Result<Service, Problem> {
             ),
         ));
     }
-    if !first.store.add_course(id, first.clock.now()).await? {
-        return Err(Problem::unprocessable(
-            format!("There is a course `{id}` already. Choose another short name."),
-            format!("「{id}」という授業はすでにあります。別の短い名前にしてください。"),
-        ));
+    let tables = first.store.open_course(id).await?;
+    let made = first.store.add_course(id, first.clock.now(), async || {
+        if tables.forget_unfinished().await? { fill(&tables).await } else { Err(still_there(id)) }
+    });
+    let made = made.await;
+    tables.close().await;
+    drop((tables, turn));
+    if !made? {
+        return Err(is_there(id));
     }
     follow(first).await?;
     let course = first.course(id).ok_or_else(|| Problem::internal(&"a course that was made is not open"))?;
-    let settings = first.store.course().await?.titled(title);
-    course.store.set_course(&settings).await?;
     grading::folders_changed(first).await;
     Ok(course)
 }
@@ -147,8 +164,24 @@ mod tests {
         for right in ["cg-2027", "a", "7"] {
             assert!(is_id(right), "{right}");
         }
+    grading::files_wait(&course).await;
         for wrong in ["", "CG", "a b", "../x", "a_b", "a.b", "-a", "日本", &"x".repeat(33)] {
             assert!(!is_id(wrong), "{wrong}");
         }
+fn is_there(id: &str) -> Problem {
+    Problem::unprocessable(
+        format!("There is a course `{id}` already. Choose another short name."),
+        format!("「{id}」という授業はすでにあります。別の短い名前にしてください。"),
+    )
+}
+
+/// The refusal to write over the data of a course that the service does not know any more, as after a backup was put back.
+fn still_there(id: &str) -> Problem {
+    Problem::unprocessable(
+        format!("The database still has people or hand-ins of an earlier course `{id}`. Choose another short name."),
+        format!("以前の授業「{id}」の名簿や提出がデータベースに残っています。別の短い名前にしてください。"),
+    )
+}
+
     }
 }

@@ -92,6 +92,8 @@ pub struct ServiceParts {
     pub(super) check_turn: Semaphore,
     /// The teacher's token, where there is one.
     pub teacher_token: Option<String>,
+    /// One course is made at a time.
+    pub(super) course_turn: Semaphore,
     /// What a preview of a folder says beside the student's page; nothing in a service for students.
     pub preview: OnceLock<FolderVersion>,
     pub(super) proxies: Proxies,

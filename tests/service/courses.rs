@@ -11,6 +11,7 @@ use ggrade::service::clock::Clock;
 use ggrade::service::identity::{course_secret, personal_code};
 use ggrade::service::store::{AssignmentSettings, RosterLine};
 use reference::assignment;
+use sqlx::{ConnectOptions, Connection};
 
 on_both!(
     a_course_grades_and_counts_for_itself,
@@ -18,6 +19,8 @@ on_both!(
     a_student_of_one_course_is_nobody_in_another,
     what_is_not_shown_is_not_found,
     a_course_goes_on_in_the_next_term,
+    a_copy_that_fails_in_the_middle_is_no_course,
+    data_of_an_earlier_course_are_not_written_over,
 );
 
 /// The second homework of the courses here.
@@ -292,5 +295,79 @@ async fn a_course_goes_on_in_the_next_term(database: Database) {
     assert_eq!(form(&bench, "/teacher/courses", "wish=open&of=cg-2027").await.status, StatusCode::SEE_OTHER);
     assert_eq!(form(&bench, PLAN, "points.ggsample06=1").await.status, StatusCode::SEE_OTHER);
     drop((course, copy, dateless));
+    bench.finish().await;
+}
+
+/// Makes the tables of a course in which no homework gets a place: what fills them fails in the middle.
+async fn break_places(bench: &Bench, id: &str) {
+    bench.state.store.open_course(id).await.expect("tables").close().await;
+    let without =
+        "CREATE TRIGGER no_places BEFORE UPDATE OF position ON assignments BEGIN SELECT RAISE(ABORT, 'no'); END";
+    let refusing = "ALTER TABLE assignments ADD CONSTRAINT no_places CHECK (position IS NULL)";
+    in_course(bench, id, [without, refusing]).await;
+}
+
+async fn mend_places(bench: &Bench, id: &str) {
+    in_course(bench, id, ["DROP TRIGGER no_places", "ALTER TABLE assignments DROP CONSTRAINT no_places"]).await;
+}
+
+/// Runs a statement in the tables of a course that no service has open: of the two the one for the database that it is.
+async fn in_course(bench: &Bench, id: &str, [sqlite, postgres]: [&'static str; 2]) {
+    let location = &bench.state.config.database;
+    if location.starts_with("postgres") {
+        let options: sqlx::postgres::PgConnectOptions = location.parse().expect("an address");
+        let schema = format!("ggrade_course_{}", id.replace('-', "_"));
+        let mut database = options.options([("search_path", schema)]).connect().await.expect("a connection");
+        sqlx::query(postgres).execute(&mut database).await.expect("done");
+    } else {
+        let file = sqlx::sqlite::SqliteConnectOptions::new().filename(format!("{location}.courses/{id}.db"));
+        let mut database = file.connect().await.expect("a file");
+        sqlx::query(sqlite).execute(&mut database).await.expect("done");
+        database.close().await.expect("closed");
+    }
+}
+
+async fn a_copy_that_fails_in_the_middle_is_no_course(database: Database) {
+    let bench = Bench::new(database).await;
+    made(&bench).await;
+    assert_eq!(form(&bench, PLAN, &format!("add.{OTHER}=on")).await.status, StatusCode::SEE_OTHER);
+    assert_eq!(form(&bench, PLAN, "points.ggsample06=40").await.status, StatusCode::SEE_OTHER);
+    break_places(&bench, "cg-2028").await;
+    let wish = "wish=copy&of=cg-2027&id=cg-2028&title=Graphics+2028&days=364";
+    let failed = form(&bench, "/teacher/courses", wish).await;
+    assert_eq!(failed.status, StatusCode::SERVICE_UNAVAILABLE, "{failed:?}");
+    let listed = program(&bench, "GET", "/api/v1/courses", "", "").await.text();
+    assert!(listed.contains("cg-2027") && !listed.contains("cg-2028"), "{listed}");
+    assert_eq!(bench.get("/c/cg-2028/").await.status, StatusCode::NOT_FOUND);
+    // Nor after a start, and what is left of it is in nobody's way.
+    let bench = bench.restarted(vec![std::sync::Arc::clone(assignment("ggsample06").expect("built in"))]).await;
+    assert!(bench.state.course("cg-2028").is_none() && bench.state.course("cg-2027").is_some());
+    mend_places(&bench, "cg-2028").await;
+    let done = form(&bench, "/teacher/courses", wish).await;
+    assert_eq!(done.header("location"), "/c/cg-2028/teacher/plan", "{done:?}");
+    let copy = bench.state.course("cg-2028").expect("a course");
+    let places = copy.store.places().await.expect("places");
+    assert_eq!(places.iter().find(|place| place.id == "ggsample06").and_then(|place| place.points), Some(40.0));
+    assert!(copy.ids().contains(&OTHER.to_owned()), "{:?}", copy.ids());
+    assert_eq!(bench.get("/c/cg-2028/a/ggsample06").await.status, StatusCode::OK);
+    drop(copy);
+    bench.finish().await;
+}
+
+async fn data_of_an_earlier_course_are_not_written_over(database: Database) {
+    let bench = Bench::new(database).await;
+    // As where a backup of the service is older than the course.
+    let tables = bench.state.store.open_course("cg-2028").await.expect("tables");
+    let line = RosterLine { number: "S1".to_owned(), ..RosterLine::default() };
+    tables.set_roster(&[line], 1).await.expect("a roster");
+    tables.close().await;
+    drop(tables);
+    let refused = form(&bench, "/teacher/courses", "wish=make&id=cg-2028&title=Graphics").await;
+    assert_eq!(refused.status, StatusCode::UNPROCESSABLE_ENTITY);
+    assert!(refused.text().contains("an earlier course"), "{}", refused.text());
+    let tables = bench.state.store.open_course("cg-2028").await.expect("tables");
+    assert!(tables.student_by_number("S1").await.expect("students").is_some());
+    tables.close().await;
+    drop(tables);
     bench.finish().await;
 }

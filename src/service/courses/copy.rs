@@ -2,9 +2,11 @@
 
 use super::super::Service;
 use super::super::clock::{Millis, millis};
+use super::super::course::Course;
 use super::super::errors::Problem;
-use super::super::store::{AssignmentSettings, CoursePlace, LateRules};
-use super::{changed, make};
+use super::super::store::{AssignmentSettings, CoursePlace, LateRules, Result as StoreResult, Store, UploadedFolder};
+use super::filled;
+use reference::Folder;
 use std::time::Duration;
 
 const DAY: Duration = Duration::from_secs(24 * 3600);
@@ -26,38 +28,59 @@ pub async fn copy(
             format!("日時をずらせるのは {MOST_DAYS} 日までです。"),
         ));
     }
-    let settings = from.store.course().await?;
-    let copy = make(first, id, title).await?;
-    copy.store.set_course(&settings.titled(title)).await?;
-    let shifted = |at: Option<Millis>| Some(at? + millis(DAY) * days?);
-    for (homework, folder) in from.store.published().await? {
-        let Some(folder) = from.store.folder(&folder).await? else { continue };
-        copy.store.add_folder(&folder, &from.store.folder_files(&folder.id).await?, None).await?;
-        copy.store.assignment(&homework).await?;
-        copy.store.publish(&folder.id, folder.published_at.unwrap_or_else(|| first.clock.now())).await?;
+    // All is read before the course is begun: while its tables are filled, nothing else is written into the first course's.
+    let source = Source::read(from, |at| Some(at? + millis(DAY) * days?)).await?;
+    let now = first.clock.now();
+    filled(first, id, async |tables| source.write(tables, title, now).await).await
+}
+
+/// What a copy takes of a course, with the dates of the copy.
+struct Source {
+    course: Course,
+    folders: Vec<(UploadedFolder, Folder)>,
+    rules: Vec<AssignmentSettings>,
+    places: Vec<CoursePlace>,
+}
+
+impl Source {
+    async fn read(from: &Service, shifted: impl Fn(Option<Millis>) -> Option<Millis>) -> StoreResult<Self> {
+        let mut folders = Vec::new();
+        for (_, id) in from.store.published().await? {
+            let Some(folder) = from.store.folder(&id).await? else { continue };
+            folders.push((folder, from.store.folder_files(&id).await?));
+        }
+        let mut places = from.store.places().await?;
+        let served = from.ids();
+        places.retain(|place| served.contains(&place.id));
+        let mut rules = Vec::new();
+        for place in &mut places {
+            let own = from.store.assignment(&place.id).await?;
+            let until = shifted(own.late.until);
+            rules.push(AssignmentSettings {
+                opens_at: shifted(own.opens_at),
+                closes_at: shifted(own.closes_at),
+                late: LateRules { until, ..own.late.clone() },
+                ..own
+            });
+            *place = in_copy(from, place, shifted(place.shown_from));
+        }
+        Ok(Self { course: from.store.course().await?, folders, rules, places })
     }
-    let mut places = from.store.places().await?;
-    let served = from.ids();
-    places.retain(|place| served.contains(&place.id));
-    for place in &mut places {
-        let rules = from.store.assignment(&place.id).await?;
-        let own = copy.store.assignment(&place.id).await?;
-        let late = rules.late.clone();
-        let until = shifted(late.until);
-        copy.store
-            .set_assignment(&AssignmentSettings {
-                seed: own.seed,
-                opens_at: shifted(rules.opens_at),
-                closes_at: shifted(rules.closes_at),
-                late: LateRules { until, ..late },
-                ..rules
-            })
-            .await?;
-        *place = in_copy(from, place, shifted(place.shown_from));
+
+    /// Writes it into the tables of a new course.
+    async fn write(self, tables: &Store, title: &str, now: Millis) -> Result<(), Problem> {
+        tables.set_course(&self.course.titled(title)).await?;
+        for (folder, files) in &self.folders {
+            tables.add_folder(folder, files, None).await?;
+            tables.assignment(&folder.assignment).await?;
+            tables.publish(&folder.id, folder.published_at.unwrap_or(now)).await?;
+        }
+        for rules in self.rules {
+            let seed = tables.assignment(&rules.id).await?.seed;
+            tables.set_assignment(&AssignmentSettings { seed, ..rules }).await?;
+        }
+        Ok(tables.set_places(&self.places).await?)
     }
-    copy.store.set_places(&places).await?;
-    changed(&copy).await?;
-    Ok(copy)
 }
 
 /// The place of a homework in the copy: there it stands where it stood, and what came with the command line is chosen. What was to

@@ -130,6 +130,7 @@ impl Service {
             check_turn: Semaphore::new(1),
             config,
             store,
+            course_turn: Semaphore::new(1),
             pool,
             clock,
         })))

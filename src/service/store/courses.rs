@@ -1,6 +1,6 @@
 //! The courses beside the first one, and what a course says of its homeworks.
 
-use super::{Result, Store, on};
+use super::{Result, Store, StoreError, on};
 use crate::service::clock::Millis;
 
 /// Name of the setting that holds when the course was archived.
@@ -30,10 +30,46 @@ impl Store {
         Ok(on!(&self.write, db => sqlx::query_scalar(SQL).fetch_all(db).await?))
     }
 
-    /// Adds a course; whether there was none with this id.
-    pub async fn add_course(&self, id: &str, now: Millis) -> Result<bool> {
+    /// Adds a course; whether there was none with this id. It is there once `fill` has filled its tables: where that fails, and
+    /// where the process ends before, it is not. Until then whoever adds the same one waits.
+    pub async fn add_course<E: From<StoreError>>(
+        &self,
+        id: &str,
+        now: Millis,
+        fill: impl AsyncFnOnce() -> std::result::Result<(), E>,
+    ) -> std::result::Result<bool, E> {
         const SQL: &str = "INSERT INTO courses (id, created_at) VALUES ($1, $2) ON CONFLICT (id) DO NOTHING";
-        Ok(on!(&self.write, db => sqlx::query(SQL).bind(id).bind(now).execute(db).await?.rows_affected()) > 0)
+        on!(&self.write, db => {
+            let mut transaction = db.begin().await.map_err(StoreError::from)?;
+            let added = sqlx::query(SQL).bind(id).bind(now).execute(&mut *transaction).await;
+            if added.map_err(StoreError::from)?.rows_affected() == 0 {
+                return Ok(false);
+            }
+            fill().await?;
+            transaction.commit().await.map_err(StoreError::from)?;
+        });
+        Ok(true)
+    }
+
+    /// Empties tables that were filled for a course that then was not added; whether nothing of people is in them. Where
+    /// something is, all of it stays.
+    pub async fn forget_unfinished(&self) -> Result<bool> {
+        const PEOPLE: &str = "SELECT (SELECT count(*) FROM students) + (SELECT count(*) FROM submissions) \
+                              + (SELECT count(*) FROM staff) + (SELECT count(*) FROM batches)";
+        const CLEAR: [&str; 4] =
+            ["DELETE FROM folder_files", "DELETE FROM folders", "DELETE FROM assignments", "DELETE FROM settings"];
+        let people: i64 = on!(&self.write, db => sqlx::query_scalar(PEOPLE).fetch_one(db).await?);
+        if people > 0 {
+            return Ok(false);
+        }
+        on!(&self.write, db => {
+            let mut transaction = db.begin().await?;
+            for sql in CLEAR {
+                sqlx::query(sql).execute(&mut *transaction).await?;
+            }
+            transaction.commit().await?;
+        });
+        Ok(true)
     }
 
     /// When this course was archived; none: it is not.
