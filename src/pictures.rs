@@ -8,19 +8,21 @@ use crate::expected;
 use crate::report::{Picture, SILHOUETTE};
 use reference::Assignment;
 use reference::rasteriser::{Coverage, Frame};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-/// What is drawn once a process, by the digest of the assignment.
-type PicturesOnce<T> = Mutex<Vec<(String, Arc<[T]>)>>;
+/// What is drawn once a process, by the digest of the assignment. While one is drawn, nobody waits who wants another.
+type PicturesOnce<T> = Mutex<Vec<(String, Arc<OnceLock<Arc<[T]>>>)>>;
 
 fn once<T>(drawn: &PicturesOnce<T>, assignment: &Assignment, draw: impl FnOnce() -> Arc<[T]>) -> Arc<[T]> {
-    let mut drawn = drawn.lock().unwrap_or_else(PoisonError::into_inner);
-    if let Some((_, known)) = drawn.iter().find(|(digest, _)| *digest == assignment.digest) {
-        return Arc::clone(known);
-    }
-    let new = draw();
-    drawn.push((assignment.digest.clone(), Arc::clone(&new)));
-    new
+    let mut known = drawn.lock().unwrap_or_else(PoisonError::into_inner);
+    let found = known.iter().find(|(digest, _)| *digest == assignment.digest).map(|(_, pictures)| Arc::clone(pictures));
+    let pictures = found.unwrap_or_else(|| {
+        let pictures = Arc::default();
+        known.push((assignment.digest.clone(), Arc::clone(&pictures)));
+        pictures
+    });
+    drop(known);
+    Arc::clone(pictures.get_or_init(draw))
 }
 
 /// The reference's frames as pictures, drawn once a process.

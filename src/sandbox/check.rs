@@ -1,14 +1,17 @@
 //! Whether a stranger's archive has the folder of a homework. A worker that is used for nothing else unpacks it, reads it, and
-//! grades its solution and the files that it hands out.
+//! grades its solution and the files that it hands out. That worker runs shaders of the stranger's, so nothing that it says of
+//! the files is believed: a second one, which runs none, is given them and reads them within [`READING`]. What it has read, and
+//! no other file, is read by the service.
 
-use super::Settings;
 use super::child::{REPORT_BYTES, Worker};
-use super::protocol::{self, Answered, Demand, FileHead, Longest};
+use super::protocol::{self, Answered, Demand, FileHead, Longest, Reply};
 use super::unpacked::{MOST_BYTES, unpacked};
+use super::{Settings, WorkerLimits};
 use crate::expected;
 use crate::fault::Fault;
 use crate::grade::{self, Grader, Order};
 use crate::language::Text;
+use crate::pictures;
 use crate::render::Device;
 use crate::report::Report;
 use reference::{Assignment, Folder};
@@ -17,6 +20,10 @@ use std::time::Duration;
 
 /// How long unpacking, reading and two gradings may take: pictures may be shaded pixel by pixel, on a busy machine.
 const DEADLINE: Duration = Duration::from_secs(60);
+
+/// What reading a folder and drawing what is right may take: the service does both once more, and so does each of its workers.
+/// The built-in homeworks that an unoptimised build checks within the deadline are all read within this.
+pub(super) const READING: WorkerLimits = WorkerLimits { memory: 256 << 20, cpu_seconds: 30 };
 
 /// The folder of a homework, as a worker has read it.
 #[derive(Clone, Debug)]
@@ -31,9 +38,7 @@ pub struct CheckedFolder {
 
 /// The parent's side. An error is ours; what is wrong with the archive is a text for its teacher.
 pub(super) fn check(settings: &Settings, archive: &[u8]) -> Result<Result<CheckedFolder, Text>, Fault> {
-    // The kernel ends a worker with the thread that started it: this one, which waits here.
-    let started = Worker::spawn(settings).and_then(|mut worker| worker.greet(settings).map(|()| worker));
-    let mut worker = started.map_err(|failure| failure.fault)?;
+    let mut worker = fresh(settings)?;
     let longest = Longest { head: 2 * REPORT_BYTES, body: MOST_BYTES };
     let (reply, body) = match worker.ask(&Demand::Check, archive, longest, DEADLINE) {
         Ok(answered) => answered,
@@ -42,12 +47,55 @@ pub(super) fn check(settings: &Settings, archive: &[u8]) -> Result<Result<Checke
     match reply.outcome {
         Answered::Checked { files, solution, handed_out } => {
             let garbled = |error| Fault::new(Text::verbatim(format!("the files of a checked folder: {error}")));
-            let (files, _) = protocol::files(&files, &body).map_err(garbled)?;
-            Ok(Ok(CheckedFolder { folder: Folder::of(files), solution: *solution, handed_out: *handed_out }))
+            let (own, _) = protocol::files(&files, &body).map_err(garbled)?;
+            let folder = Folder::of(own);
+            let read = read(settings, files, &body)?;
+            Ok(read.map(|()| CheckedFolder { folder, solution: *solution, handed_out: *handed_out }))
         }
         Answered::Refused(why) => Ok(Err(why)),
         Answered::Failed(fault) => Err(fault),
-        Answered::Loaded | Answered::Graded { .. } => Err(Fault::new(Text::verbatim("the answer to another question"))),
+        Answered::Loaded | Answered::Graded { .. } => Err(another_answer()),
+    }
+}
+
+/// A worker that has met nobody's file. The kernel ends it with the thread that started it: the one that asks it, and waits.
+fn fresh(settings: &Settings) -> Result<Worker, Fault> {
+    let started = Worker::spawn(settings).and_then(|mut worker| worker.greet(settings).map(|()| worker));
+    started.map_err(|failure| failure.fault)
+}
+
+/// Has the files read by a worker that draws nothing of theirs; why they cannot be, where they cannot.
+fn read(settings: &Settings, files: Vec<FileHead>, body: &[u8]) -> Result<Result<(), Text>, Fault> {
+    let longest = Longest { head: REPORT_BYTES, body: 0 };
+    match fresh(settings)?.ask(&Demand::Read(files), body, longest, DEADLINE) {
+        Ok((Reply { outcome: Answered::Loaded, .. }, _)) => Ok(Ok(())),
+        Ok((Reply { outcome: Answered::Refused(why), .. }, _)) => Ok(Err(why)),
+        Ok((Reply { outcome: Answered::Failed(fault), .. }, _)) => Err(fault),
+        Ok(_) => Err(another_answer()),
+        Err(how) => Ok(Err(too_much(&how))),
+    }
+}
+
+fn another_answer() -> Fault {
+    Fault::new(Text::verbatim("the answer to another question"))
+}
+
+/// The worker's side of [`read`].
+pub(super) fn read_again(files: &[FileHead], body: &[u8]) -> Answered {
+    let folder = match protocol::files(files, body) {
+        Ok((files, [])) => Folder::of(files),
+        _ => return Answered::Failed(Fault::new(Text::verbatim("files that do not fit their body"))),
+    };
+    match Assignment::load(folder) {
+        Ok(assignment) => {
+            pictures::expected_pictures(&assignment);
+            pictures::telling_pose(&assignment);
+            Answered::Loaded
+        }
+        Err(error) => {
+            let why = error.text();
+            Answered::Refused(Text::new(why.en, why.ja))
+        }
     }
 }
 
@@ -78,6 +126,19 @@ fn checked(device: &Device, archive: &[u8]) -> Result<(Folder, Report, Report), 
     let solution = report(grade::solution(&assignment))?;
     let handed_out = report(grade::handed_out(&assignment))?;
     Ok(((*assignment.folder).clone(), solution, handed_out))
+}
+
+fn too_much(how: &str) -> Text {
+    let (seconds, mebibytes) = (READING.cpu_seconds, READING.memory >> 20);
+    let how = how.lines().next().unwrap_or_default();
+    Text::new(
+        format!(
+            "reading it and drawing its right pictures takes more than {seconds} s or {mebibytes} MiB ({how}): make its textures, meshes and window smaller, or draw fewer poses"
+        ),
+        format!(
+            "読み込みと正解の画像の描画に {seconds} 秒または {mebibytes} MiB を超える時間やメモリが必要です（{how}）。テクスチャ、メッシュ、ウィンドウを小さくするか、ポーズを減らしてください"
+        ),
+    )
 }
 
 fn ended(how: &str) -> Text {

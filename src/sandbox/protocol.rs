@@ -23,6 +23,8 @@ pub(super) enum Demand {
     Grade(GradingRequest),
     /// Unpack the archive that is the body, read the folder of a homework in it, and grade that folder's own files.
     Check,
+    /// Read the folder whose files are the body, and draw what is right, within what that may take of a service.
+    Read(Vec<FileHead>),
 }
 
 /// Read this assignment; the body is the files of its folder, one behind the other, and then its packed pictures.

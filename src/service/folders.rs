@@ -1,12 +1,14 @@
 //! Homeworks that come by the browser: a folder is uploaded, checked, looked at and published.
 //!
-//! The archive is a stranger's. A worker of its own unpacks it, reads its TOML, meshes and pictures and grades its own files;
-//! this process reads only the bytes that a worker has read before, to their end and within its limits. The folders are in the
-//! database: of each homework the one that was published last is served, in the place of what the command line names.
+//! The archive is a stranger's. A worker of its own unpacks it, reads its TOML, meshes and pictures and grades its own files; a
+//! second one, which runs nothing of theirs, reads the files again within narrower limits ([`crate::sandbox`]). This process reads
+//! what the second one has read, and nothing else. The folders are in the database: of each homework the one that was published
+//! last is served, in the place of what the command line names.
 
 use super::errors::Problem;
 use super::grading;
 use super::identity::new_id;
+use super::pages;
 use super::regrade;
 use super::store::{Regrading, Result as StoreResult, Store, UploadedFolder};
 use super::{Service, State};
@@ -39,6 +41,13 @@ pub enum Publication {
     Served,
     /// What was handed in is graded by it beside the reports that stand; adopting the results publishes it.
     Regrading(Regrading),
+}
+
+/// Draws the right pictures of a homework, so that nobody's page waits for them.
+async fn drawn(assignment: &Arc<Assignment>) -> Result<(), Problem> {
+    let assignment = Arc::clone(assignment);
+    let drawing = tokio::task::spawn_blocking(move || pages::warm(&assignment)).await;
+    drawing.map_err(|panic| Problem::internal(&panic))
 }
 
 /// Reads a folder that was checked. What it says of a broken one is the folder's file, and what is wrong in it.
@@ -81,6 +90,8 @@ pub(super) async fn follow(service: &Service) -> StoreResult<()> {
     for assignment in now {
         let is_served = |state: State| state.assignment.digest == assignment.digest;
         if !service.homework(&assignment.id).is_some_and(is_served) {
+            // A page that cannot be drawn says so itself.
+            let _ = drawn(&assignment).await;
             service.serve(assignment);
         }
     }
@@ -217,6 +228,7 @@ pub async fn withdraw(service: &Service, id: &str) -> Result<(), Problem> {
         return conflict(
             "This is the only homework of the service. Publish another one first.",
             "このサービスの唯一の課題です。先に別の課題を公開してください。",
+    drawn(&assignment).await?;
         );
     }
     service.store.withdraw(&folder.assignment).await?;

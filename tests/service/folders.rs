@@ -3,11 +3,13 @@
 use crate::bench::{Bench, Reply, TEACHER, config};
 use crate::cluster::Database;
 use crate::on_both;
+use crate::process::Server;
 use crate::roster::zip;
 use axum::body::Body;
 use axum::http::{Request, StatusCode, header};
 use ggrade::service::Config;
 use ggrade::service::clock::Clock;
+use reqwest::Method;
 use serde_json::json;
 use std::path::Path;
 use std::time::Duration;
@@ -256,4 +258,46 @@ async fn what_one_process_publishes_another_serves() {
     }
     here.finish().await;
     there.finish().await;
+}
+
+/// Asks a server in a process of its own.
+async fn ask(server: &Server, method: Method, path: &str, token: &str, body: Vec<u8>) -> reqwest::Response {
+    let request = reqwest::Client::new().request(method, format!("{}{path}", server.address)).bearer_auth(token);
+    request.header("content-type", "application/zip").body(body).send().await.expect("an answer")
+}
+
+/// A folder of some kilobytes that takes half a gigabyte to read, a large texture for each of its readings: the worker that grades
+/// its files may have as much, the service must not.
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn what_would_fill_the_service_stays_in_a_worker() {
+    let database = Database::sqlite();
+    let server = Server::start(&database);
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/homeworks/maps");
+    let text = |name: &str| std::fs::read_to_string(folder.join(name)).expect("text");
+    let reading = |place: &u8| {
+        let note = format!("{{ en = \"Reading {place}.\", ja = \"解釈 {place}。\" }}");
+        format!("{{ file = \"reading{place}.frag\", id = \"reading-{place}\", note = {note} }}")
+    };
+    let readings: Vec<String> = [1, 2, 3].iter().map(reading).collect();
+    let manifest = text("assignment.toml").replace("size = [48, 48]", "size = [1900, 1900]").replacen(
+        "solution = \"solution.frag\"\n",
+        &format!("solution = \"solution.frag\"\naccepted = [{}]\n", readings.join(", ")),
+        1,
+    );
+    let mut files = vec![("assignment.toml".to_owned(), manifest.into_bytes())];
+    files
+        .extend(["fixed.vert", "solution.frag", "starter.frag"].map(|name| (name.to_owned(), text(name).into_bytes())));
+    files.extend([1, 2, 3].map(|place| (format!("reading{place}.frag"), text("solution.frag").into_bytes())));
+    let archive = zip(&files);
+    assert!(archive.len() < 100_000);
+    let before = server.peak();
+    let reply = ask(&server, Method::POST, "/api/v1/folders", TEACHER, archive).await;
+    assert_eq!(reply.status(), 422);
+    let detail = reply.json::<serde_json::Value>().await.expect("JSON")["detail"].to_string();
+    assert!(detail.contains("256 MiB") && detail.contains("textures"), "{detail}");
+    let grown = server.peak() - before;
+    assert!(grown < 100, "the service grew by {grown} MiB");
+    // It goes on, and takes a folder that is none of that kind.
+    let reply = ask(&server, Method::POST, "/api/v1/folders", TEACHER, first()).await;
+    assert_eq!(reply.status(), 201);
 }

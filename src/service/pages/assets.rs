@@ -10,7 +10,7 @@ use reference::Assignment;
 use sha2::{Digest, Sha256};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
-use std::sync::{Arc, LazyLock, Mutex, PoisonError};
+use std::sync::{Arc, LazyLock, Mutex, OnceLock, PoisonError};
 
 /// One file.
 #[derive(Debug)]
@@ -68,13 +68,19 @@ static ASSETS: LazyLock<Vec<Asset>> = LazyLock::new(|| {
     ]
 });
 
-/// What is drawn for each assignment, by its digest.
-static DRAWN: Mutex<BTreeMap<String, Arc<[Asset]>>> = Mutex::new(BTreeMap::new());
+/// The assets of one assignment, as soon as they are drawn.
+type DrawnOnce = Arc<OnceLock<Vec<Asset>>>;
+
+/// What is drawn for each assignment, by its digest. While one is drawn, the others are served.
+static DRAWN: Mutex<BTreeMap<String, DrawnOnce>> = Mutex::new(BTreeMap::new());
 
 /// How the pictures of an assignment move, and the right ones; drawn once.
-fn of_assignment(assignment: &Assignment) -> Arc<[Asset]> {
+fn of_assignment(assignment: &Assignment) -> DrawnOnce {
     let mut drawn = DRAWN.lock().unwrap_or_else(PoisonError::into_inner);
-    Arc::clone(drawn.entry(assignment.digest.clone()).or_insert_with(|| draw(assignment).into()))
+    let assets = Arc::clone(drawn.entry(assignment.digest.clone()).or_default());
+    drop(drawn);
+    assets.get_or_init(|| draw(assignment));
+    assets
 }
 
 fn draw(assignment: &Assignment) -> Vec<Asset> {
@@ -124,7 +130,13 @@ pub(super) fn expected(assignment: &Assignment) -> String {
 
 fn address_of(assignment: &Assignment, name: &str) -> String {
     let drawn = of_assignment(assignment);
-    drawn.iter().find(|asset| asset.name == name).map_or(NONE, |asset| asset.address.as_str()).to_owned()
+    drawn
+        .get()
+        .into_iter()
+        .flatten()
+        .find(|asset| asset.name == name)
+        .map_or(NONE, |asset| asset.address.as_str())
+        .to_owned()
 }
 
 /// The address of what there is not.
@@ -136,7 +148,12 @@ pub(super) async fn serve(Path(name): Path<String>) -> Response {
     let is_it = |asset: &&Asset| asset.address == address;
     let drawn = || {
         let drawn = DRAWN.lock().unwrap_or_else(PoisonError::into_inner);
-        drawn.values().flat_map(|assets| assets.iter()).find(is_it).map(|asset| (asset.kind, asset.content.clone()))
+        drawn
+            .values()
+            .filter_map(|assets| assets.get())
+            .flatten()
+            .find(is_it)
+            .map(|asset| (asset.kind, asset.content.clone()))
     };
     let fixed = ASSETS.iter().find(is_it).map(|asset| (asset.kind, asset.content.clone()));
     let Some((kind, content)) = fixed.or_else(drawn) else { return StatusCode::NOT_FOUND.into_response() };
