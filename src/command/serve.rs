@@ -24,14 +24,21 @@ pub fn run(arguments: &ServeArguments) -> Result<ExitStatus, Fault> {
     if arguments.healthcheck {
         return check_health(&config);
     }
-    let assignments = match choice::assignments(&config.assignment).and_then(|found| of_tokens(&config, found)) {
+    let runtime = runtime()?;
+    let found = match choice::assignments(&config.assignment) {
+        Ok(assignments) => match runtime.block_on(unknown_token(&config, &assignments))? {
+            None => Ok(assignments),
+            Some(text) => Err(text),
+        },
+        Err(text) => Err(text),
+    };
+    let assignments = match found {
         Ok(assignments) => assignments,
         Err(text) => {
             anstream::eprintln!("ggrade: {}", text.get(language(None)));
             return Ok(ExitStatus::Usage);
         }
     };
-    let runtime = runtime()?;
     if arguments.set_teacher_password {
         return set_password(&config, &runtime);
     }
@@ -62,21 +69,25 @@ fn check_health(config: &Config) -> Result<ExitStatus, Fault> {
     Ok(ExitStatus::FullMarks)
 }
 
-/// The same assignments, where every homework that has a token of its own is among them.
-fn of_tokens(config: &Config, assignments: Vec<Arc<Assignment>>) -> Result<Vec<Arc<Assignment>>, Text> {
-    let is_served = |name: &&String| assignments.iter().any(|assignment| assignment.id == **name);
-    let unknown = config.homework_tokens.keys().find(|name| !is_served(name)).cloned();
-    match unknown {
-        None => Ok(assignments),
-        Some(name) => {
-            let served: Vec<&str> = assignments.iter().map(|assignment| assignment.id.as_str()).collect();
-            let served = served.join(", ");
-            Err(Text::new(
-                format!("a token is for the homework `{name}`, which is not served. Served: {served}."),
-                format!("トークンが指定された課題「{name}」は、このサービスにありません。ある課題: {served}。"),
-            ))
+/// What is wrong with the tokens of homeworks: each is for one that is named, or whose folder was uploaded to the first course.
+async fn unknown_token(config: &Config, assignments: &[Arc<Assignment>]) -> Result<Option<Text>, Fault> {
+    let mut known: Vec<String> = assignments.iter().map(|assignment| assignment.id.clone()).collect();
+    let is_unknown = |known: &[String]| config.homework_tokens.keys().find(|name| !known.contains(name)).cloned();
+    if is_unknown(&known).is_none() {
+        return Ok(None);
+    }
+    for id in server::uploaded(config).await? {
+        if !known.contains(&id) {
+            known.push(id);
         }
     }
+    Ok(is_unknown(&known).map(|name| {
+        let served = known.join(", ");
+        Text::new(
+            format!("a token is for the homework `{name}`, which is not served. Served: {served}."),
+            format!("トークンが指定された課題「{name}」は、このサービスにありません。ある課題: {served}。"),
+        )
+    }))
 }
 
 /// Says where the service is, for whoever started it.

@@ -75,6 +75,7 @@ fn described() -> OpenApiRouter<Service> {
         .routes(routes!(batches::events))
         .routes(routes!(batches::file, batches::filled))
         .routes(routes!(batches::class_file))
+        .routes(routes!(folders::read, folders::remove))
         .routes(routes!(folders::publish, folders::withdraw))
         .routes(routes!(extensions::list, extensions::set))
         .routes(routes!(extensions::choose))

@@ -7,10 +7,10 @@
 
 use super::errors::Problem;
 use super::grading;
-use super::identity::new_id;
+use super::identity::{Teacher, new_id};
 use super::pages;
 use super::regrade;
-use super::store::{Regrading, Result as StoreResult, Store, UploadedFolder};
+use super::store::{Regrading, Result as StoreResult, StaffRole, Store, UploadedFolder};
 use super::{Service, State};
 use crate::language::Text;
 use crate::report::{Report, Verdict};
@@ -110,9 +110,31 @@ pub async fn read(service: &Service, id: &str) -> Result<Arc<Assignment>, Proble
     Ok(assignment)
 }
 
-/// The folder with this id.
-pub async fn found(service: &Service, id: &str) -> Result<UploadedFolder, Problem> {
+/// The folder with this id, for a lecturer of its homework.
+pub async fn found(service: &Service, teacher: &Teacher, id: &str) -> Result<UploadedFolder, Problem> {
+    teacher.check_role(StaffRole::Lecturer)?;
+    let folder = stored(service, id).await?;
+    teacher.check(&folder.assignment)?;
+    Ok(folder)
+}
+
+/// The uploaded folders of the homeworks that a lecturer teaches, the newest first.
+pub async fn all(service: &Service, teacher: &Teacher) -> Result<Vec<UploadedFolder>, Problem> {
+    teacher.check_role(StaffRole::Lecturer)?;
+    let mut folders = service.store.folders().await?;
+    folders.retain(|folder| teacher.may_see(&folder.assignment));
+    Ok(folders)
+}
+
+async fn stored(service: &Service, id: &str) -> Result<UploadedFolder, Problem> {
     service.store.folder(id).await?.ok_or_else(Problem::not_found)
+}
+
+/// The homework in an uploaded folder as its page will be: whoever looks at it sees it at an address of its own.
+pub async fn previewed(service: &Service, folder: &UploadedFolder) -> Result<State, Problem> {
+    let assignment = read(service, &folder.id).await?;
+    drawn(&assignment).await?;
+    Ok(service.unserved(assignment, &folder.id))
 }
 
 /// Whether a folder is the one that is served.
@@ -120,8 +142,9 @@ pub fn is_served(service: &Service, folder: &UploadedFolder) -> bool {
     service.homework(&folder.assignment).is_some_and(|state| state.assignment.digest == folder.digest)
 }
 
-/// Checks an archive and keeps the folder in it; nothing is served otherwise for it. `staff_id` is who uploads it.
-pub async fn upload(service: &Service, archive: &Path, staff_id: Option<&str>) -> Result<UploadedFolder, Problem> {
+/// Checks an archive and keeps the folder in it, where it is one of a homework that its uploader teaches; nothing is served
+/// otherwise for it.
+pub async fn upload(service: &Service, archive: &Path, teacher: &Teacher) -> Result<UploadedFolder, Problem> {
     let bytes = tokio::fs::read(archive).await.map_err(|error| Problem::internal(&error))?;
     let turn = service.check_turn.acquire().await;
     let pool = Arc::clone(&service.pool);
@@ -133,6 +156,7 @@ pub async fn upload(service: &Service, archive: &Path, staff_id: Option<&str>) -
         return Err(refused(&why));
     }
     let assignment = loaded(folder).await.map_err(|why| refused(&why))?;
+    teacher.check(&assignment.id)?;
     let uploaded = UploadedFolder {
         id: new_id(),
         assignment: assignment.id.clone(),
@@ -143,6 +167,7 @@ pub async fn upload(service: &Service, archive: &Path, staff_id: Option<&str>) -
         handed_out,
         published_at: None,
     };
+    let staff_id = teacher.staff().map(|member| member.id.as_str());
     service.store.add_folder(&uploaded, &assignment.folder, staff_id).await?;
     service.store.folder_of_digest(&uploaded.digest).await?.ok_or_else(Problem::not_found)
 }
@@ -182,7 +207,7 @@ fn flaw(service: &Service, solution: &Report, handed_out: &Report) -> Option<Tex
 
 /// Serves a folder, or has what was handed in graded by it first, where there is something.
 pub async fn publish(service: &Service, id: &str) -> Result<Publication, Problem> {
-    let folder = found(service, id).await?;
+    let folder = stored(service, id).await?;
     let state = service.homework(&folder.assignment);
     if is_served(service, &folder) {
         return Ok(Publication::Served);
@@ -203,6 +228,7 @@ pub async fn publish(service: &Service, id: &str) -> Result<Publication, Problem
     {
         return Ok(Publication::Regrading(regrade::start(&state, false, Some(folder.id)).await?));
     }
+    drawn(&assignment).await?;
     // Its settings are there before anybody asks for them.
     service.store.assignment(&assignment.id).await?;
     service.store.publish(id, service.clock.now()).await?;
@@ -215,7 +241,7 @@ pub async fn publish(service: &Service, id: &str) -> Result<Publication, Problem
 /// Takes a homework out of service, as far as it was published here: what the command line names is served as it is there.
 /// Nothing that was handed in is lost.
 pub async fn withdraw(service: &Service, id: &str) -> Result<(), Problem> {
-    let folder = found(service, id).await?;
+    let folder = stored(service, id).await?;
     let conflict = |en: &str, ja: &str| Err(Problem::new(StatusCode::CONFLICT, "in-use", en, ja));
     let is_named = service.named_as(&folder.assignment).is_some();
     if is_named && service.store.has_reports(&folder.assignment).await? {
@@ -228,7 +254,6 @@ pub async fn withdraw(service: &Service, id: &str) -> Result<(), Problem> {
         return conflict(
             "This is the only homework of the service. Publish another one first.",
             "このサービスの唯一の課題です。先に別の課題を公開してください。",
-    drawn(&assignment).await?;
         );
     }
     service.store.withdraw(&folder.assignment).await?;
@@ -239,7 +264,7 @@ pub async fn withdraw(service: &Service, id: &str) -> Result<(), Problem> {
 
 /// Forgets a folder that is not published.
 pub async fn remove(service: &Service, id: &str) -> Result<(), Problem> {
-    let folder = found(service, id).await?;
+    let folder = stored(service, id).await?;
     if folder.published_at.is_some() {
         return Err(Problem::new(
             StatusCode::CONFLICT,

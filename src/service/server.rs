@@ -105,6 +105,14 @@ pub async fn open(config: &Config) -> Result<Store, Fault> {
     })
 }
 
+/// The ids of the homeworks whose folders were uploaded to the first course of a configuration's database.
+pub async fn uploaded(config: &Config) -> Result<Vec<String>, Fault> {
+    let store = open(config).await?;
+    let folders = store.folders().await.map_err(|error| database(&error))?;
+    store.close().await;
+    Ok(folders.into_iter().map(|folder| folder.assignment).collect())
+}
+
 async fn has_teacher(config: &Config, store: &Store) -> Result<bool, Fault> {
     if config.teacher_token.is_some() || config.teacher_password_hash.is_some() {
         return Ok(true);

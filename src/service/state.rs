@@ -31,6 +31,8 @@ pub struct State {
     pub assignment: Arc<Assignment>,
     /// What a right answer draws.
     pub right: Arc<RightPictures>,
+    /// Id of the uploaded folder that is looked at, where the homework is none that is served.
+    folder: Option<String>,
 }
 
 impl std::ops::Deref for Service {
@@ -132,7 +134,12 @@ impl Service {
         let plan = self.plan.read().unwrap_or_else(PoisonError::into_inner);
         homeworks.sort_by_key(|(assignment, _)| plan.place(&assignment.id));
         drop(plan);
-        homeworks.into_iter().map(|(assignment, right)| State { service: self.clone(), assignment, right })
+        homeworks.into_iter().map(|(assignment, right)| State {
+            service: self.clone(),
+            assignment,
+            right,
+            folder: None,
+        })
     }
 
     /// The ids of the homeworks that are served.
@@ -152,10 +159,10 @@ impl Service {
         self.is_beside() || self.homeworks().count() > 1
     }
 
-    /// A homework that is not served, to be looked at.
-    pub(super) fn unserved(&self, assignment: Arc<Assignment>) -> State {
+    /// The homework in an uploaded folder, to be looked at.
+    pub(super) fn unserved(&self, assignment: Arc<Assignment>, folder: &str) -> State {
         let (assignment, right) = with_pictures(assignment);
-        State { service: self.clone(), assignment, right }
+        State { service: self.clone(), assignment, right, folder: Some(folder.to_owned()) }
     }
 
     /// How often the homeworks have changed that are served.
@@ -274,7 +281,15 @@ impl State {
 
     /// The same within its course.
     pub fn place(&self) -> String {
-        format!("/a/{}", self.assignment.id)
+        match &self.folder {
+            Some(folder) => format!("/teacher/folders/{folder}/page"),
+            None => format!("/a/{}", self.assignment.id),
+        }
+    }
+
+    /// Id of the uploaded folder that is looked at, where the homework is none that is served.
+    pub fn looked_at(&self) -> Option<&str> {
+        self.folder.as_deref()
     }
 
     /// The query that names this homework to the API; nothing where it is the only one.

@@ -2,7 +2,7 @@
 
 use super::archive::UploadedArchive;
 use super::body::unkept;
-use super::caller::{Caller, check_course, check_reader};
+use super::caller::{Caller, check};
 use super::refusals::{Errors, NotFound, Refusals};
 use super::schema::time;
 use crate::service::Service;
@@ -86,13 +86,14 @@ fn done(folder: &UploadedFolder, act: &str, answer: Response) -> Response {
 }
 
 /// The uploaded folders
+///
+/// With a token of one homework those of that homework.
 #[utoipa::path(
     get, operation_id = "list_folders", path = "/api/v1/folders", tag = "batches", security(("teacher" = [])),
     responses((status = 200, description = "Each with what its own files got", body = FoldersJson), Refusals, Errors)
 )]
 pub(super) async fn list(teacher: Teacher, Shared(service): Shared<Service>) -> Result<Response, Problem> {
-    check_reader(&teacher, StaffRole::Lecturer)?;
-    let folders = service.store.folders().await?;
+    let folders = folders::all(&service, &teacher).await?;
     let folders = folders.iter().map(|folder| FolderJson::of(&service, folder)).collect();
     Ok(unkept(FoldersJson { folders }))
 }
@@ -100,7 +101,8 @@ pub(super) async fn list(teacher: Teacher, Shared(service): Shared<Service>) -> 
 /// Upload the folder of a homework
 ///
 /// It is unpacked, read and its own files are graded in a process of its own; what is no homework that grades is refused (422) with
-/// the file and the line. Nobody sees it before it is published. The same folder, sent again, is there once.
+/// the file and the line. Nobody sees it before it is published. The same folder, sent again, is there once. A token of one homework
+/// is good for versions of that homework.
 #[utoipa::path(
     post, operation_id = "create_folder", path = "/api/v1/folders", tag = "batches", security(("teacher" = [])),
     request_body(content((FolderForm = "multipart/form-data"), (Vec<u8> = "application/zip"))),
@@ -111,12 +113,47 @@ pub(super) async fn create(
     Shared(service): Shared<Service>,
     request: Request,
 ) -> Result<Response, Problem> {
-    check_course(&caller, &service, StaffRole::Lecturer)?;
+    check(&caller, &service, StaffRole::Lecturer)?;
     let archive = UploadedArchive::read(request, &service).await?;
-    let staff = caller.0.staff().map(|member| member.id.as_str());
-    let folder = folders::upload(&service, &archive.path, staff).await?;
+    let folder = folders::upload(&service, &archive.path, &caller.0).await?;
     let answer = (StatusCode::CREATED, Json(FolderJson::of(&service, &folder))).into_response();
     Ok(done(&folder, "uploaded", answer))
+}
+
+/// An uploaded folder
+#[utoipa::path(
+    get, operation_id = "read_folder", path = "/api/v1/folders/{id}", tag = "batches", security(("teacher" = [])),
+    params(("id" = String, Path, description = "Id of the folder")),
+    responses((status = 200, description = "With what its own files got", body = FolderJson), NotFound, Refusals, Errors)
+)]
+pub(super) async fn read(
+    teacher: Teacher,
+    Shared(service): Shared<Service>,
+    Path(id): Path<String>,
+) -> Result<Response, Problem> {
+    let folder = folders::found(&service, &teacher, &id).await?;
+    Ok(unkept(FolderJson::of(&service, &folder)))
+}
+
+/// Delete a folder that was never published
+#[utoipa::path(
+    delete, operation_id = "delete_folder", path = "/api/v1/folders/{id}", tag = "batches", security(("teacher" = [])),
+    params(("id" = String, Path, description = "Id of the folder")),
+    responses(
+        (status = 204, description = "It is gone"),
+        (status = 409, description = "It was published", body = ProblemJson, content_type = "application/problem+json"),
+        NotFound, Refusals, Errors
+    )
+)]
+pub(super) async fn remove(
+    caller: Caller,
+    Shared(service): Shared<Service>,
+    Path(id): Path<String>,
+) -> Result<Response, Problem> {
+    check(&caller, &service, StaffRole::Lecturer)?;
+    let folder = folders::found(&service, &caller.0, &id).await?;
+    folders::remove(&service, &id).await?;
+    Ok(done(&folder, "remove", StatusCode::NO_CONTENT.into_response()))
 }
 
 /// Publish a folder
@@ -136,8 +173,8 @@ pub(super) async fn publish(
     Shared(service): Shared<Service>,
     Path(id): Path<String>,
 ) -> Result<Response, Problem> {
-    check_course(&caller, &service, StaffRole::Lecturer)?;
-    let folder = folders::found(&service, &id).await?;
+    check(&caller, &service, StaffRole::Lecturer)?;
+    let folder = folders::found(&service, &caller.0, &id).await?;
     let (status, regrading) = match folders::publish(&service, &id).await? {
         Publication::Served => (StatusCode::OK, None),
         Publication::Regrading(regrading) => (StatusCode::ACCEPTED, Some(regrading.id)),
@@ -163,8 +200,8 @@ pub(super) async fn withdraw(
     Shared(service): Shared<Service>,
     Path(id): Path<String>,
 ) -> Result<Response, Problem> {
-    check_course(&caller, &service, StaffRole::Lecturer)?;
-    let folder = folders::found(&service, &id).await?;
+    check(&caller, &service, StaffRole::Lecturer)?;
+    let folder = folders::found(&service, &caller.0, &id).await?;
     folders::withdraw(&service, &id).await?;
     Ok(done(&folder, "withdraw", StatusCode::NO_CONTENT.into_response()))
 }

@@ -105,7 +105,7 @@ pub(super) async fn desk(
     let desk = StudentPageParts {
         preview: preview::panel(&state, &frame),
         frame,
-        homework: std::sync::Arc::clone(&state.assignment),
+        state: &state,
         standing: StudentStanding {
             settings: &settings,
             now: state.clock.now(),
@@ -156,7 +156,7 @@ pub(super) async fn starter(
 }
 
 /// `GET /a/{assignment}/goal.png`: what a right answer draws, small and moving. Its address has the digest of the homework.
-async fn goal(Shared(state): Shared<State>) -> Result<Response, Problem> {
+pub(super) async fn goal(Shared(state): Shared<State>) -> Result<Response, Problem> {
     let headers = [(header::CONTENT_TYPE, "image/png"), (header::CACHE_CONTROL, "private, max-age=86400, immutable")];
     Ok((headers, gallery::goal(&state).await?).into_response())
 }

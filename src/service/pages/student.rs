@@ -9,9 +9,9 @@ use super::report_fragment;
 use super::standing::{Fact, StudentStanding};
 use crate::language::Language;
 use crate::report::html::rich::{MessagePiece, pieces};
+use crate::service::State;
 use crate::service::clock::Millis;
 use crate::service::counting::{Counting, counted};
-use crate::service::courses::at;
 use crate::service::identity::new_id;
 use crate::service::store::{Appeal, HistoryRow};
 use crate::service::submit::{MAX_UPLOAD, too_large};
@@ -21,6 +21,9 @@ use percent_encoding::{NON_ALPHANUMERIC, utf8_percent_encode};
 use reference::assignment::Stage;
 use reference::typeset::{SumPart, Typeset};
 
+/// Digits of a folder's digest that tell its versions apart.
+pub(super) const DIGITS: usize = 8;
+
 /// Attempts that a page lists.
 pub(super) const LISTED: u32 = 60;
 
@@ -28,7 +31,7 @@ pub(super) const LISTED: u32 = 60;
 pub(super) struct StudentPageParts<'a> {
     pub frame: PageFrame,
     /// The homework.
-    pub homework: std::sync::Arc<reference::Assignment>,
+    pub state: &'a State,
     /// What may still be handed in.
     pub standing: StudentStanding<'a>,
     /// Student number.
@@ -46,6 +49,13 @@ pub(super) struct StudentPageParts<'a> {
     pub preview: Option<PreviewPanel>,
     /// How to say who one is.
     pub sign_ins: Vec<SignInLink>,
+}
+
+/// The mark of a page that shows an uploaded folder to who teaches.
+struct FolderMark {
+    /// The page of the folder.
+    href: String,
+    digest: String,
 }
 
 #[derive(Template)]
@@ -92,6 +102,7 @@ struct StudentPage<'a> {
     choose: String,
     deletable: bool,
     preview: Option<PreviewPanel>,
+    folder: Option<FolderMark>,
 }
 
 /// The editor of one file.
@@ -112,17 +123,17 @@ struct EditorSheet {
 impl StudentPageParts<'_> {
     /// The page.
     pub fn render(mut self) -> askama::Result<String> {
-        let homework = std::sync::Arc::clone(&self.homework);
-        let id = &homework.id;
+        let state = self.state;
+        let (homework, page) = (&state.assignment, state.page());
         let language = self.frame.language;
         let standing = self.standing;
         let slots = &homework.files;
         let has_several = slots.len() > 1;
         let (own, texts) = self.own.take().unzip();
         StudentPage {
-            title: title(&self.homework, language),
-            file: file_names(&homework),
-            sheets: sheets(&homework, texts),
+            title: title(homework, language),
+            file: file_names(homework),
+            sheets: sheets(state, texts),
             accepted: accepted(slots),
             facts: self.facts(),
             now: standing.now,
@@ -131,25 +142,29 @@ impl StudentPageParts<'_> {
             steps: standing.steps(&self.frame),
             draft_word: standing.draft_word(&self.frame),
             can_hand_in: standing.can_hand_in(),
-            grades_drafts: standing.grades_drafts(),
+            grades_drafts: standing.grades_drafts() && state.looked_at().is_none(),
             attempts: self.attempts(),
-            choose: at(&format!("/a/{id}/choose")),
+            choose: format!("{page}/choose"),
             deletable: false,
             notice: self.notice,
             preview: self.preview,
+            folder: state.looked_at().map(|folder| FolderMark {
+                href: format!("{}/teacher/folders/{folder}", state.root()),
+                digest: homework.digest.chars().take(DIGITS).collect(),
+            }),
             who: self.who,
             sign_ins: self.sign_ins,
-            action: at(&format!("/a/{id}")),
-            draft: at(&format!("/a/{id}/draft")),
-            starter: starter(id),
+            draft: format!("{page}/draft"),
+            starter: starter(state),
             csrf: self.csrf,
             form_key: new_id(),
             own,
-            read: at(&format!("/a/{id}/read")),
+            read: format!("{page}/read"),
+            action: page,
             most: MAX_UPLOAD,
             too_large: too_large().detail.get(language).to_owned(),
-            expected: assets::expected(&homework),
-            task: task(&homework, &self.frame),
+            expected: assets::expected(homework),
+            task: task(homework, &self.frame),
             picture: homework
                 .task
                 .as_ref()
@@ -183,14 +198,16 @@ impl StudentPageParts<'_> {
 }
 
 /// The address of all that is handed out.
-fn starter(id: &str) -> String {
-    at(&format!("/a/{id}/starter"))
+fn starter(state: &State) -> String {
+    format!("{}/starter", state.page())
 }
 
 /// The editors of a homework's files, with these texts or what is handed out.
-fn sheets(homework: &reference::Assignment, texts: Option<Vec<String>>) -> Vec<EditorSheet> {
-    let slots = &homework.files;
-    let id = &homework.id;
+fn sheets(state: &State, texts: Option<Vec<String>>) -> Vec<EditorSheet> {
+    let homework = &state.assignment;
+    let (slots, id) = (&homework.files, &homework.id);
+    // What is typed at a page that is looked at is no draft of the page that students have.
+    let id = state.looked_at().map_or_else(|| id.clone(), |folder| format!("{id} {folder}"));
     let mut texts = texts.unwrap_or_default().into_iter();
     let sheet = |(index, slot): (usize, &Slot)| {
         let suffix = if index == 0 { String::new() } else { format!("-{}", index + 1) };
@@ -199,7 +216,7 @@ fn sheets(homework: &reference::Assignment, texts: Option<Vec<String>>) -> Vec<E
             name: slot.name.clone(),
             id: format!("code{suffix}"),
             key: if slots.len() == 1 { format!("ggrade {id}") } else { format!("ggrade {id} {}", slot.name) },
-            starter: format!("{}?file={encoded}", starter(id)),
+            starter: format!("{}?file={encoded}", starter(state)),
             output: computed(homework, slot.stage).to_owned(),
             text: texts.next().unwrap_or_else(|| slot.starter.clone()),
         }

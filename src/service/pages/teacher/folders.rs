@@ -2,7 +2,8 @@
 
 use super::super::datetime::TimeElement;
 use super::super::frame::PageFrame;
-use super::super::{shown, student};
+use super::super::student::DIGITS;
+use super::super::{hand_in, shown, student};
 use super::{Tab, refused};
 use crate::report::Report;
 use crate::report::html::rich::{MessagePiece, pieces};
@@ -12,13 +13,13 @@ use crate::service::api::archive::UploadedArchive;
 use crate::service::courses::at;
 use crate::service::errors::Problem;
 use crate::service::folders::{self, Publication};
-use crate::service::identity::{LecturerPage, Teacher};
+use crate::service::identity::{LecturerPage, Teacher, Visitor};
 use crate::service::store::UploadedFolder;
-use crate::service::{Service, gallery};
+use crate::service::{Service, State};
 use askama::Template;
 use axum::Form;
-use axum::extract::{Path, Request, State as Shared};
-use axum::http::header;
+use axum::extract::{Multipart, Path, Query, Request, State as Shared};
+use axum::http::StatusCode;
 use axum::response::{IntoResponse, Redirect, Response};
 use serde::Deserialize;
 
@@ -65,6 +66,8 @@ struct FolderPage {
     files: String,
     task: Vec<MessagePiece>,
     goal: String,
+    /// The page that students will have.
+    page: String,
     solution: FileResult,
     handed_out: FileResult,
     rubric: Vec<RubricRow>,
@@ -100,9 +103,6 @@ pub(in crate::service::pages) struct FolderAction {
     wish: String,
 }
 
-/// Digits of a digest that tell versions apart.
-const DIGITS: usize = 8;
-
 fn line(service: &Service, frame: &PageFrame, folder: &UploadedFolder) -> FolderLine {
     let standing = match folder.published_at {
         _ if folders::is_served(service, folder) => frame.say("published", "公開中"),
@@ -125,14 +125,14 @@ async fn view_list(
     frame: PageFrame,
     problem: Option<String>,
 ) -> Result<Response, Problem> {
-    let uploaded = service.store.folders().await?;
-    let homework = |state: crate::service::State| ServedHomework {
+    let uploaded = folders::all(service, teacher).await?;
+    let homework = |state: State| ServedHomework {
         title: student::title(&state.assignment, frame.language),
         id: state.assignment.id.clone(),
         href: format!("{}/teacher", state.base()),
         is_uploaded: uploaded.iter().any(|folder| folder.digest == state.assignment.digest),
     };
-    let homeworks = service.homeworks().map(homework).collect();
+    let homeworks = service.homeworks().filter(|state| teacher.may_see(&state.assignment.id)).map(homework).collect();
     let folders = uploaded.iter().map(|folder| line(service, &frame, folder)).collect();
     let (csrf, archive_mib) = (teacher.csrf(service), service.config.archive_mib);
     shown(FoldersPage { place: Tab::Folders, csrf, problem, archive_mib, homeworks, folders, frame }.render())
@@ -144,7 +144,6 @@ pub(in crate::service::pages) async fn list(
     LecturerPage(teacher): LecturerPage,
     frame: PageFrame,
 ) -> Result<Response, Problem> {
-    teacher.check_course()?;
     view_list(&service, &teacher, frame, None).await
 }
 
@@ -155,11 +154,9 @@ pub(in crate::service::pages) async fn upload(
     frame: PageFrame,
     request: Request,
 ) -> Result<Response, Problem> {
-    teacher.check_course()?;
     let archive = UploadedArchive::read(request, &service).await?;
     teacher.check_csrf(&service, archive.fields.get("csrf").map(String::as_str).unwrap_or_default())?;
-    let staff = teacher.staff().map(|member| member.id.as_str());
-    match folders::upload(&service, &archive.path, staff).await {
+    match folders::upload(&service, &archive.path, &teacher).await {
         Ok(folder) => {
             let answer = Redirect::to(&format!("/teacher/folders/{}", folder.id)).into_response();
             Ok(detail(&folder, "uploaded").on(answer))
@@ -213,6 +210,7 @@ async fn view_one(
             files: student::file_names(&assignment),
             task: student::task(&assignment, &frame),
             goal: at(&format!("/teacher/folders/{}/goal.png", folder.id)),
+            page: at(&format!("/teacher/folders/{}/page", folder.id)),
             solution: earned(&folder.solution),
             handed_out: earned(&folder.handed_out),
             rubric: rubric.collect(),
@@ -233,9 +231,48 @@ pub(in crate::service::pages) async fn one(
     Path(id): Path<String>,
     frame: PageFrame,
 ) -> Result<Response, Problem> {
-    teacher.check_course()?;
-    let folder = folders::found(&service, &id).await?;
+    let folder = folders::found(&service, &teacher, &id).await?;
     view_one(&service, &teacher, frame, &folder, None).await
+}
+
+/// The homework in a folder, for a lecturer who looks at it.
+async fn looked_at(service: &Service, teacher: &Teacher, id: &str) -> Result<State, Problem> {
+    let folder = folders::found(service, teacher, id).await?;
+    folders::previewed(service, &folder).await
+}
+
+/// `GET /teacher/folders/{id}/page`: the student's page, as it will be.
+pub(in crate::service::pages) async fn student_page(
+    Shared(service): Shared<Service>,
+    LecturerPage(teacher): LecturerPage,
+    Path(id): Path<String>,
+    frame: PageFrame,
+    visitor: Visitor,
+) -> Result<Response, Problem> {
+    let state = looked_at(&service, &teacher, &id).await?;
+    let frame = frame.of(&state);
+    hand_in::desk(Shared(state), Query::default(), frame, visitor).await
+}
+
+/// `GET /teacher/folders/{id}/page/starter`.
+pub(in crate::service::pages) async fn starter(
+    Shared(service): Shared<Service>,
+    LecturerPage(teacher): LecturerPage,
+    Path(id): Path<String>,
+    wanted: Query<hand_in::StarterQuery>,
+) -> Result<Response, Problem> {
+    hand_in::starter(Shared(looked_at(&service, &teacher, &id).await?), wanted).await
+}
+
+/// `POST /teacher/folders/{id}/page/read`.
+pub(in crate::service::pages) async fn read(
+    Shared(service): Shared<Service>,
+    LecturerPage(teacher): LecturerPage,
+    Path(id): Path<String>,
+    visitor: Visitor,
+    form: Multipart,
+) -> Result<Response, Problem> {
+    hand_in::read(Shared(looked_at(&service, &teacher, &id).await?), visitor, form).await
 }
 
 /// `GET /teacher/folders/{id}/goal.png`: what a right answer draws, small and moving.
@@ -244,11 +281,17 @@ pub(in crate::service::pages) async fn goal(
     LecturerPage(teacher): LecturerPage,
     Path(id): Path<String>,
 ) -> Result<Response, Problem> {
-    teacher.check_course()?;
-    folders::found(&service, &id).await?;
-    let state = service.unserved(folders::read(&service, &id).await?);
-    let headers = [(header::CONTENT_TYPE, "image/png"), (header::CACHE_CONTROL, "private, max-age=86400, immutable")];
-    Ok((headers, gallery::goal(&state).await?).into_response())
+    hand_in::goal(Shared(looked_at(&service, &teacher, &id).await?)).await
+}
+
+/// `POST /teacher/folders/{id}/page`: what a student does there is not done at a page that is looked at.
+pub(in crate::service::pages) async fn not_handed_in(LecturerPage(_): LecturerPage) -> Problem {
+    Problem::new(
+        StatusCode::CONFLICT,
+        "preview",
+        "This is a preview: nothing was handed in, and nothing is graded. Publish the homework first.",
+        "プレビューのため、提出も採点も行っていません。先に課題を公開してください。",
+    )
 }
 
 /// `POST /teacher/folders/{id}`.
@@ -260,8 +303,7 @@ pub(in crate::service::pages) async fn change(
     Form(wish): Form<FolderAction>,
 ) -> Result<Response, Problem> {
     teacher.check_csrf(&service, &wish.csrf)?;
-    teacher.check_course()?;
-    let folder = folders::found(&service, &id).await?;
+    let folder = folders::found(&service, &teacher, &id).await?;
     let own = format!("/teacher/folders/{id}");
     let done = match wish.wish.as_str() {
         "publish" => folders::publish(&service, &id).await.map(|publication| match publication {
