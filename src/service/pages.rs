@@ -56,8 +56,9 @@ pub fn router(service: &Service) -> Router<Service> {
         routes = if service.has_several() {
             routes.nest(&page, student.merge(teacher))
         } else {
+            let moved = homeworks::of_the_only_one().with_state(state.clone());
             let first = Router::new().route("/", get(hand_in::desk)).layer(seen).with_state(state);
-            routes.nest(&page, student).merge(teacher).merge(first)
+            routes.nest(&page, student.merge(moved)).merge(teacher).merge(first)
         };
     }
     if service.has_several() {

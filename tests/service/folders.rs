@@ -21,6 +21,7 @@ on_both!(
     whoever_may_not_is_kept_out,
     a_version_is_looked_at_as_students_will_see_it,
     a_token_of_a_homework_opens_one_that_was_published,
+    addresses_of_a_class_lead_on_where_it_moved,
 );
 
 const OF_GGSAMPLE06: &str = "the-teacher-of-ggsample06";
@@ -414,4 +415,34 @@ async fn a_token_may_be_of_a_homework_that_came_by_the_browser() {
         let path = format!("/api/v1/class/files/csv?assignment={homework}");
         assert_eq!(ask(&server, Method::GET, &path, OF_WAVES, vec![]).await.status(), status, "{homework}");
     }
+}
+
+async fn addresses_of_a_class_lead_on_where_it_moved(database: Database) {
+    let bench = bench(database).await;
+    // While there is one homework, its class is at the address of ever, and its own address leads there.
+    for (old, new) in
+        [("", "/teacher"), ("/settings", "/teacher/settings"), ("/person?number=S1", "/teacher/person?number=S1")]
+    {
+        let reply = get(&bench, &format!("/a/ggsample06/teacher{old}")).await;
+        assert_eq!((reply.status, reply.header("location")), (StatusCode::SEE_OTHER, new));
+    }
+    let batch = request(&bench, ("POST", "/api/v1/batches"), TEACHER, zip(&[("S1.vert".into(), crate::right())])).await;
+    assert_eq!(batch.status, StatusCode::ACCEPTED, "{batch:?}");
+    let id = uploaded(&bench, first()).await;
+    assert_eq!(publish(&bench, &id).await.status, StatusCode::OK);
+    // With the second one it is below its homework. A page of both asks which; what is of one leads there.
+    let asked = get(&bench, "/teacher/settings?lang=en").await;
+    assert_eq!((asked.status, asked.all("h1")), (StatusCode::OK, vec!["Of which class?".to_owned()]));
+    for homework in ["ggsample06", "waves"] {
+        assert!(asked.text().contains(&format!("href=\"/a/{homework}/teacher/settings?lang=en\"")), "{}", asked.text());
+    }
+    let address = format!("/teacher/batches/{}", batch.id());
+    assert_eq!(get(&bench, &address).await.header("location"), format!("/a/ggsample06{address}"));
+    let own = request(&bench, ("GET", "/teacher/insights"), OF_WAVES, Vec::new()).await;
+    assert_eq!(own.header("location"), "/a/waves/teacher/insights", "the only class that they teach");
+    let others = request(&bench, ("GET", &address), OF_WAVES, Vec::new()).await;
+    assert_eq!(others.status, StatusCode::FORBIDDEN);
+    assert_eq!(bench.get("/teacher/settings").await.header("location"), "/teacher/login");
+    assert_eq!(get(&bench, "/teacher/nothing").await.status, StatusCode::NOT_FOUND);
+    bench.finish().await;
 }

@@ -1,4 +1,5 @@
-//! The list of the homeworks, where a service has several: for students, and for teachers.
+//! The list of the homeworks, where a service has several: for students, and for teachers. What a teacher's page of the only homework
+//! was before there were several leads on from where it was, and back.
 
 use super::frame::{PageFrame, SignInLink};
 use super::standing::{Fact, StudentStanding};
@@ -7,11 +8,12 @@ use crate::language::Language;
 use crate::report::html::rich::MessagePiece;
 use crate::service::courses::at;
 use crate::service::errors::Problem;
-use crate::service::identity::{TeacherPage, Visitor};
+use crate::service::identity::{Teacher, TeacherPage, Visitor};
 use crate::service::{Service, State};
 use askama::Template;
 use axum::Router;
-use axum::extract::{Path, State as Shared};
+use axum::extract::{MatchedPath, Path, State as Shared};
+use axum::http::Uri;
 use axum::response::{IntoResponse, Redirect, Response};
 use axum::routing::{any, get};
 use base64::Engine;
@@ -22,8 +24,28 @@ pub(super) fn router() -> Router<Service> {
     Router::new()
         .route("/", get(list))
         .route("/teacher", get(classes))
+        .route("/teacher/batches/{id}", get(moved_batch))
+        .route("/teacher/regradings/{id}", get(moved_regrading))
+        .merge(OF_A_CLASS.iter().fold(Router::new(), |routes, page| routes.route(page, get(moved))))
         .route("/a/{assignment}", any(no_such_homework))
         .route("/a/{assignment}/{*rest}", any(no_such_page))
+}
+
+/// The pages of a class that stand without the homework's name where there is one homework.
+const OF_A_CLASS: [&str; 8] = [
+    "/teacher/appeals",
+    "/teacher/insights",
+    "/teacher/likeness",
+    "/teacher/likeness/pair",
+    "/teacher/person",
+    "/teacher/extensions",
+    "/teacher/batches",
+    "/teacher/settings",
+];
+
+/// The routes of the only homework at which its class was while there were several.
+pub(super) fn of_the_only_one() -> Router<State> {
+    Router::new().route("/teacher", get(moved_back)).route("/teacher/{*rest}", get(moved_back))
 }
 
 #[derive(Template)]
@@ -106,9 +128,21 @@ async fn classes(
     TeacherPage(teacher): TeacherPage,
     frame: PageFrame,
 ) -> Result<Response, Problem> {
+    let heading = frame.say("Classes", "クラスの一覧");
+    of_each(&service, &teacher, frame, heading, "").await
+}
+
+/// A page of the class of each homework that this teacher may see: `rest` is what follows `/teacher` in its address.
+async fn of_each(
+    service: &Service,
+    teacher: &Teacher,
+    frame: PageFrame,
+    heading: &'static str,
+    rest: &str,
+) -> Result<Response, Problem> {
     let visible: Vec<State> = service.homeworks().filter(|state| teacher.may_see(&state.assignment.id)).collect();
     if let [only] = visible.as_slice() {
-        return Ok(Redirect::to(&format!("{}/teacher", only.base())).into_response());
+        return Ok(Redirect::to(&format!("{}/teacher{rest}", only.base())).into_response());
     }
     let mut homeworks = Vec::new();
     for state in visible {
@@ -119,11 +153,55 @@ async fn classes(
             Language::Ja => format!("提出 {hand_ins} 件"),
         };
         let facts = vec![Fact::plain("", text)];
-        homeworks.push(HomeworkCard::of(&state, &frame, format!("{}/teacher", state.base()), facts)?);
+        homeworks.push(HomeworkCard::of(&state, &frame, format!("{}/teacher{rest}", state.base()), facts)?);
     }
-    let heading = frame.say("Classes", "クラスの一覧");
-    let csrf = Some(teacher.csrf(&service));
+    let csrf = Some(teacher.csrf(service));
     shown(HomeworksPage { frame, heading, homeworks, who: None, sign_ins: Vec::new(), csrf }.render())
+}
+
+/// The address of a page of the class while there was one homework: now it is a page of each.
+async fn moved(
+    Shared(service): Shared<Service>,
+    TeacherPage(teacher): TeacherPage,
+    route: MatchedPath,
+    uri: Uri,
+    frame: PageFrame,
+) -> Result<Response, Problem> {
+    let heading = frame.say("Of which class?", "どのクラスのページですか?");
+    let page = route.as_str().strip_prefix("/teacher").unwrap_or_default();
+    of_each(&service, &teacher, frame, heading, &with_query(page, &uri)).await
+}
+
+fn with_query(address: &str, uri: &Uri) -> String {
+    uri.query().map_or_else(|| address.to_owned(), |query| format!("{address}?{query}"))
+}
+
+/// The same of an archive, which says itself of which homework it is.
+async fn moved_batch(
+    Shared(service): Shared<Service>,
+    TeacherPage(teacher): TeacherPage,
+    Path(id): Path<String>,
+) -> Result<Redirect, Problem> {
+    let batch = service.store.batch(&id).await?.ok_or_else(Problem::not_found)?;
+    teacher.check(&batch.assignment)?;
+    Ok(Redirect::to(&format!("{}/teacher/batches/{id}", service.homework_of(&batch.assignment)?.base())))
+}
+
+/// The same of a regrading.
+async fn moved_regrading(
+    Shared(service): Shared<Service>,
+    TeacherPage(teacher): TeacherPage,
+    Path(id): Path<String>,
+) -> Result<Redirect, Problem> {
+    let regrading = service.store.regrading(&id).await?.ok_or_else(Problem::not_found)?;
+    teacher.check(&regrading.assignment)?;
+    Ok(Redirect::to(&format!("{}/teacher/regradings/{id}", service.homework_of(&regrading.assignment)?.base())))
+}
+
+/// The address of a page of the only homework while there were several.
+async fn moved_back(uri: Uri) -> Redirect {
+    let page = uri.path().find("/teacher").map_or("/teacher", |start| &uri.path()[start..]);
+    Redirect::to(&with_query(page, &uri))
 }
 
 /// An address of a homework that there is not.
