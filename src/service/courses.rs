@@ -18,9 +18,11 @@ pub(super) use way::{answer, within};
 pub use way::{at, public_address, root, root_of};
 
 use super::errors::Problem;
+use super::identity::Teacher;
 use super::store::{Result as StoreResult, Store, StoredSubmission};
 use super::{Service, app, grading};
 use axum::Router;
+use axum::http::HeaderMap;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// Longest id of a course.
@@ -63,6 +65,17 @@ impl Service {
     pub fn everywhere(&self) -> Vec<Self> {
         let others = self.courses.open();
         std::iter::once(self.clone()).chain(others.iter().map(|open| open.service.clone())).collect()
+    }
+
+    /// The courses of the service beside this one in which somebody teaches, with them as they are known there.
+    pub async fn others_of(&self, headers: &HeaderMap) -> Result<Vec<(Self, Teacher)>, Problem> {
+        let mut others = Vec::new();
+        for course in self.first_course().iter().flat_map(Self::everywhere).filter(|course| course.root != self.root) {
+            if let Some(teacher) = Teacher::of(&course, headers).await? {
+                others.push((course, teacher));
+            }
+        }
+        Ok(others)
     }
 
     /// The course with this id beside the first one.
@@ -109,6 +122,16 @@ pub(super) async fn holding(first: &Service, id: &str) -> StoreResult<Option<(Se
 
 /// Makes a course without homeworks, students and lecturers.
 pub async fn make(first: &Service, id: &str, title: &str) -> Result<Service, Problem> {
+    let settings = first.store.course().await?.titled(title);
+    filled(first, id, async |tables| Ok(tables.set_course(&settings).await?)).await
+}
+
+/// Makes a course whose tables `fill` fills. Nobody sees it before they are filled: where that fails, there is no course.
+async fn filled(
+    first: &Service,
+    id: &str,
+    fill: impl AsyncFnOnce(&Store) -> Result<(), Problem>,
+) -> Result<Service, Problem> {
     let id = id.trim();
     if !is_id(id) {
         return Err(Problem::unprocessable(
@@ -126,16 +149,6 @@ pub async fn make(first: &Service, id: &str, title: &str) -> Result<Service, Pro
             format!("A service has at most {MOST_COURSES} courses beside the first. Start another service."),
             format!(
                 "1 つのサービスで扱える授業は、最初の授業のほかに {MOST_COURSES} 個までです。サービスを分けてください。"
-    let settings = first.store.course().await?.titled(title);
-    filled(first, id, async |tables| Ok(tables.set_course(&settings).await?)).await
-}
-
-/// Makes a course whose tables `fill` fills. Nobody sees it before they are filled: where that fails, there is no course.
-async fn filled(
-    first: &Service,
-    id: &str,
-    fill: impl AsyncFnOnce(&Store) -> Result<(), Problem>,
-) -> Result<Service, Problem> {
             ),
         ));
     }
@@ -152,22 +165,10 @@ async fn filled(
     follow(first).await?;
     let course = first.course(id).ok_or_else(|| Problem::internal(&"a course that was made is not open"))?;
     grading::folders_changed(first).await;
+    grading::files_wait(&course).await;
     Ok(course)
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn an_id_names_a_file_and_a_schema() {
-        for right in ["cg-2027", "a", "7"] {
-            assert!(is_id(right), "{right}");
-        }
-    grading::files_wait(&course).await;
-        for wrong in ["", "CG", "a b", "../x", "a_b", "a.b", "-a", "日本", &"x".repeat(33)] {
-            assert!(!is_id(wrong), "{wrong}");
-        }
 fn is_there(id: &str) -> Problem {
     Problem::unprocessable(
         format!("There is a course `{id}` already. Choose another short name."),
@@ -183,5 +184,17 @@ fn still_there(id: &str) -> Problem {
     )
 }
 
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_id_names_a_file_and_a_schema() {
+        for right in ["cg-2027", "a", "7"] {
+            assert!(is_id(right), "{right}");
+        }
+        for wrong in ["", "CG", "a b", "../x", "a_b", "a.b", "-a", "日本", &"x".repeat(33)] {
+            assert!(!is_id(wrong), "{wrong}");
+        }
     }
 }

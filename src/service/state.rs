@@ -16,7 +16,7 @@ use super::preview::FolderVersion;
 use super::store::{Store, StoredSubmission, Submission};
 use reference::Assignment;
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::{Arc, OnceLock, PoisonError, RwLock};
+use std::sync::{Arc, OnceLock, PoisonError, RwLock, Weak};
 use tokio::sync::{Semaphore, watch};
 
 /// What every request shares, whatever homework it is about; cheap to clone.
@@ -80,6 +80,8 @@ pub struct ServiceParts {
     pub(super) first: Option<Store>,
     /// The courses beside the first one, which alone has them.
     pub(super) courses: Courses,
+    /// The first course, where this is another one; it outlives this.
+    pub(super) first_course: Option<Weak<ServiceParts>>,
     /// The homeworks that the command line names, or those from which another course chooses.
     named: Vec<Arc<Assignment>>,
     /// Which of them the course has, and in which order.
@@ -90,12 +92,12 @@ pub struct ServiceParts {
     generation: AtomicU64,
     /// The folders that were read to grade everything again by them.
     pub(super) folders: FolderCache,
+    /// One course is made at a time.
+    pub(super) course_turn: Semaphore,
     /// One uploaded folder is checked at a time.
     pub(super) check_turn: Semaphore,
     /// The teacher's token, where there is one.
     pub teacher_token: Option<String>,
-    /// One course is made at a time.
-    pub(super) course_turn: Semaphore,
     /// What a preview of a folder says beside the student's page; nothing in a service for students.
     pub preview: OnceLock<FolderVersion>,
     pub(super) proxies: Proxies,
@@ -120,6 +122,14 @@ impl Service {
     /// Whether it is another course than the first.
     pub fn is_beside(&self) -> bool {
         !self.root.is_empty()
+    }
+
+    /// The first course.
+    pub(super) fn first_course(&self) -> Option<Self> {
+        match &self.first_course {
+            None => Some(self.clone()),
+            Some(first) => first.upgrade().map(Self),
+        }
     }
 
     /// Where accounts and sessions are: with the first course.
@@ -264,6 +274,11 @@ fn with_pictures(assignment: Arc<Assignment>) -> (Arc<Assignment>, Arc<RightPict
 }
 
 impl State {
+    /// The homework as another course has it, whatever version of it that serves.
+    pub(super) fn in_course(&self, other: &Service) -> Self {
+        Self { service: other.clone(), ..self.clone() }
+    }
+
     /// The service.
     pub fn service(&self) -> &Service {
         &self.service

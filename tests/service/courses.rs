@@ -2,6 +2,7 @@
 
 use crate::bench::{Bench, TEACHER};
 use crate::cluster::Database;
+use crate::likeness::{ANSWER, disguised, text};
 use crate::staff::{Browser, administrator, bench};
 use crate::{on_both, right_and_new};
 use axum::body::Body;
@@ -21,6 +22,7 @@ on_both!(
     a_course_goes_on_in_the_next_term,
     a_copy_that_fails_in_the_middle_is_no_course,
     data_of_an_earlier_course_are_not_written_over,
+    likeness_looks_at_last_terms_course_where_one_teaches_it,
 );
 
 /// The second homework of the courses here.
@@ -369,5 +371,75 @@ async fn data_of_an_earlier_course_are_not_written_over(database: Database) {
     assert!(tables.student_by_number("S1").await.expect("students").is_some());
     tables.close().await;
     drop(tables);
+    bench.finish().await;
+}
+
+/// Hands in for a student of a course: the id of the submission.
+async fn hand_in(bench: &Bench, course: &str, number: &str, text: String) -> String {
+    let address = format!("/c/{course}/api/v1/submissions?assignment=ggsample06&student={number}");
+    let reply = program(bench, "POST", &address, "text/plain", text).await;
+    assert_eq!(reply.status, StatusCode::CREATED, "{reply:?}");
+    reply.id()
+}
+
+async fn likeness_looks_at_last_terms_course_where_one_teaches_it(database: Database) {
+    let bench = bench(database, Clock::fixed(1_801_436_400_000)).await;
+    let last = made(&bench).await;
+    enrol(&last, &["E1", "R1"]).await;
+    let first = hand_in(&bench, "cg-2027", "E1", text(ANSWER)).await;
+    hand_in(&bench, "cg-2027", "R1", disguised()).await;
+    let fields = "wish=copy&of=cg-2027&id=cg-2028&title=Graphics+2028&days=364";
+    assert_eq!(form(&bench, "/teacher/courses", fields).await.status, StatusCode::SEE_OTHER);
+    let now = bench.state.course("cg-2028").expect("a course");
+    enrol(&now, &["N1", "R1"]).await;
+    let copied = hand_in(&bench, "cg-2028", "N1", disguised() + "// mine\n").await;
+    // Who takes the course again hands in what is their own; R1 and E1 are both of last term.
+    hand_in(&bench, "cg-2028", "R1", disguised()).await;
+
+    let found = program(&bench, "GET", "/c/cg-2028/api/v1/likeness?assignment=ggsample06", "", "").await.json();
+    assert_eq!((&found["class"], &found["others"]), (&2.into(), &2.into()), "{found}");
+    let member = |pair: &serde_json::Value, place: usize| {
+        let member = &pair["members"][place];
+        (member["student"].as_str().expect("a number").to_owned(), member["course"].as_str().map(str::to_owned))
+    };
+    let pairs = found["pairs"].as_array().expect("pairs");
+    let mut told: Vec<_> = pairs.iter().map(|pair| (member(pair, 0).0, member(pair, 1))).collect();
+    told.sort();
+    let of =
+        |one: &str, other: &str, course: Option<&str>| (one.to_owned(), (other.to_owned(), course.map(str::to_owned)));
+    let course = Some("/c/cg-2027");
+    let expected = [of("N1", "E1", course), of("N1", "R1", None), of("N1", "R1", course), of("R1", "E1", course)];
+    assert_eq!(told, expected, "{found}");
+    let pair = pairs.iter().find(|pair| member(pair, 1).0 == "E1" && member(pair, 0).0 == "N1").expect("a pair");
+    assert_eq!(pair["members"][1]["submission"], format!("/c/cg-2027/api/v1/submissions/{first}"));
+    let address = pair["comparison"].as_str().expect("an address").to_owned();
+    let sides = program(&bench, "GET", &address, "", "").await.json();
+    assert!(sides["percent"].as_u64().expect("a share") > 80, "{sides}");
+
+    // Who teaches both courses sees it; who teaches this one only learns nothing of the other.
+    let mut admin = administrator(&bench).await;
+    let mut of_both = let_in(&bench, &mut admin, "/c/cg-2028", "wada").await;
+    let mut of_this = let_in(&bench, &mut admin, "/c/cg-2028", "mori").await;
+    let people = "/c/cg-2027/teacher/people";
+    let known = admin.form(people, people, "login=wada&name=N&role=assistant").await;
+    assert_eq!(known.status, StatusCode::SEE_OTHER);
+    let page = "/c/cg-2028/a/ggsample06/teacher/likeness";
+    let pair = format!("{page}/pair?one={copied}&other={first}&course=%2Fc%2Fcg-2027");
+    let seen = of_both.get(&format!("{page}?lang=en")).await;
+    assert!(seen.text().contains(&format!("href=\"/c/cg-2027/r/{first}\"")), "{}", seen.text());
+    assert!(seen.text().contains("Graphics 2027"), "{}", seen.text());
+    let both = of_both.get(&pair).await;
+    assert_eq!(both.all(".side-by-side h3"), ["N1 N", "E1 N"], "{}", both.text());
+    let unseen = of_this.get(&format!("{page}?lang=en")).await;
+    assert_eq!(unseen.status, StatusCode::OK);
+    assert!(!unseen.text().contains(&first) && !unseen.text().contains("E1"), "{}", unseen.text());
+    assert_eq!(of_this.get(&pair).await.status, StatusCode::NOT_FOUND);
+    assert_eq!(of_this.get(&address).await.status, StatusCode::NOT_FOUND);
+    // Where assistants read pseudonyms, who is of last term has no name.
+    last.store.set_pseudonyms(true).await.expect("set");
+    let seen = of_both.get(&format!("{page}?lang=en")).await;
+    assert!(seen.text().contains(&first) && !seen.text().contains("E1"), "{}", seen.text());
+    assert!(!of_both.get(&pair).await.text().contains("E1 N"));
+    drop((last, now));
     bench.finish().await;
 }

@@ -14,7 +14,7 @@ use std::sync::Arc;
 
 on_both!(who_is_alike_is_told_with_what_they_share, an_earlier_term_is_held_against_the_class);
 
-const ANSWER: &str = "accepted/answers/half-angle-squared-forty-times.vert";
+pub const ANSWER: &str = "accepted/answers/half-angle-squared-forty-times.vert";
 const OTHER: &str = "accepted/answers/if-instead-of-max.vert";
 
 fn line(number: &str) -> RosterLine {
@@ -28,12 +28,12 @@ async fn hand_in(bench: &Bench, number: &str, text: &str) -> String {
     reply.id()
 }
 
-fn text(name: &str) -> String {
+pub fn text(name: &str) -> String {
     String::from_utf8(sample(name)).expect("UTF-8")
 }
 
 /// The same in other names and with other comments.
-fn disguised() -> String {
+pub fn disguised() -> String {
     let names = ["lv", "nlv", "nh2"];
     let text = text(ANSWER).replace("//", "// well:");
     names.iter().fold(text, |text, name| {

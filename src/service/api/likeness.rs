@@ -11,8 +11,10 @@ use crate::service::identity::Teacher;
 use crate::service::likeness::{self, AlikePerson};
 use axum::extract::rejection::QueryRejection;
 use axum::extract::{Path, Query, State as Shared};
+use axum::http::HeaderMap;
 use axum::response::Response;
-use serde::Serialize;
+use percent_encoding::{NON_ALPHANUMERIC, utf8_percent_encode};
+use serde::{Deserialize, Serialize};
 
 /// How much two answers are alike: a hint, and no verdict.
 #[derive(Debug, Serialize, utoipa::ToSchema)]
@@ -43,6 +45,8 @@ pub(super) struct MemberJson {
     student: String,
     /// Whether they are of the class; others are of an earlier term, or of nobody.
     is_of_class: bool,
+    /// What the addresses of their course begin with, where that is another course; null: it is this one.
+    course: Option<String>,
 }
 
 /// Two whose answers are alike.
@@ -74,7 +78,8 @@ pub(super) struct LikenessJson {
 /// Answers that are alike
 ///
 /// A hint where to look, and never a verdict. Names, the order of lines, spacing and comments are left aside; so is what the
-/// hand-out and the lecture say, and what many of the class have.
+/// hand-out and the lecture say, and what many of the class have. Answers of other courses of the service are looked at as well,
+/// where who asks teaches there: with the teacher's token all of them, with a person's token none.
 #[utoipa::path(
     get, operation_id = "list_likeness", path = "/api/v1/likeness", tag = "submissions", security(("teacher" = [])),
     params(OfQuery),
@@ -82,21 +87,26 @@ pub(super) struct LikenessJson {
 )]
 pub(super) async fn list(
     teacher: Teacher,
+    headers: HeaderMap,
     Shared(service): Shared<Service>,
     of: Result<Query<OfQuery>, QueryRejection>,
 ) -> Result<Response, Problem> {
     let Query(of) = of.map_err(super::body::other)?;
     let state = service.named(of.assignment.as_deref())?;
     teacher.check(&state.assignment.id)?;
-    let found = likeness::find(&state).await?;
+    let found = likeness::find(&state, &headers).await?;
     let member = |member: &AlikePerson| MemberJson {
-        submission: at(&format!("/api/v1/submissions/{}", member.submission)),
+        submission: match &member.course {
+            Some(course) => format!("{}/api/v1/submissions/{}", course.root, member.submission),
+            None => at(&format!("/api/v1/submissions/{}", member.submission)),
+        },
         student: member.number.clone(),
         is_of_class: member.is_of_class,
+        course: member.course.as_ref().map(|course| course.root.clone()),
     };
     let alike = |(pair, [one, other]): (Pair, [AlikePerson; 2])| AlikeJson {
         pair: PairJson::of(&pair),
-        comparison: at(&format!("/api/v1/submissions/{}/likeness/{}", one.submission, other.submission)),
+        comparison: comparison(&one, &other),
         members: vec![member(&one), member(&other)],
     };
     let json = LikenessJson {
@@ -106,6 +116,25 @@ pub(super) async fn list(
         left_out: found.left_out,
     };
     Ok(unkept(json))
+}
+
+/// The address of two side by side; the other one may be of another course.
+fn comparison(one: &AlikePerson, other: &AlikePerson) -> String {
+    let address = at(&format!("/api/v1/submissions/{}/likeness/{}", one.submission, other.submission));
+    match &other.course {
+        Some(course) => format!("{address}?course={}", utf8_percent_encode(&course.root, NON_ALPHANUMERIC)),
+        None => address,
+    }
+}
+
+/// In which course the other one of two is.
+#[derive(Debug, Deserialize, utoipa::IntoParams)]
+#[serde(deny_unknown_fields)]
+#[into_params(parameter_in = Query)]
+pub(super) struct ComparisonQuery {
+    /// What the addresses of the other one's course begin with, where that is another one: empty for the first course.
+    #[param(required = false)]
+    course: Option<String>,
 }
 
 /// A piece of a line.
@@ -142,17 +171,21 @@ pub(super) struct ComparisonJson {
 /// Their files line by line, with what both have.
 #[utoipa::path(
     get, operation_id = "compare_submissions", path = "/api/v1/submissions/{id}/likeness/{other}", tag = "submissions", security(("teacher" = [])),
-    params(("id" = String, Path, description = "Id of the submission"), ("other" = String, Path, description = "Id of the other one")),
+    params(("id" = String, Path, description = "Id of the submission"), ("other" = String, Path, description = "Id of the other one"), ComparisonQuery),
     responses((status = 200, description = "The two", body = ComparisonJson), NotFound, Refusals, Errors)
 )]
 pub(super) async fn compare(
     teacher: Teacher,
+    headers: HeaderMap,
     Shared(service): Shared<Service>,
     Path((id, other)): Path<(String, String)>,
+    of: Result<Query<ComparisonQuery>, QueryRejection>,
 ) -> Result<Response, Problem> {
+    let Query(of) = of.map_err(super::body::other)?;
     let (state, _) = service.submission(&id).await?;
     teacher.check(&state.assignment.id)?;
-    let found = likeness::compare(&state, [&id, &other], Default::default()).await?;
+    let (there, _) = likeness::in_course(&state, of.course.as_deref(), &headers).await?;
+    let found = likeness::compare([(&state, &id), (&there, &other)], Default::default()).await?;
     let side = |Side { name, lines }: Side| SideJson {
         name,
         lines: lines

@@ -83,18 +83,20 @@ impl Service {
         let mut offered = self.named.clone();
         let built_in = reference::assignments().filter(|one| self.named.iter().all(|known| known.id != one.id));
         offered.extend(built_in.cloned());
-        Self::made(common, offered, store, Some((id, self.store.clone()))).await
+        Self::made(common, offered, store, Some((id, self))).await
     }
 
     async fn made(
         common: CourseResources,
         named: Vec<Arc<Assignment>>,
         store: Store,
-        other: Option<(&str, Store)>,
+        other: Option<(&str, &Self)>,
     ) -> StoreResult<Self> {
         let key = store.setting_or("csrf_key", &new_token()).await?;
         let plan = CoursePlan::read(&store).await?;
-        let (root, first) = other.map(|(id, first)| (courses::root_of_id(id), first)).unzip();
+        let (root, first_course) = other.map(|(id, first)| (courses::root_of_id(id), first)).unzip();
+        let first = first_course.map(|first| first.store.clone());
+        let first_course = first_course.map(|Self(first)| Arc::downgrade(first));
         let root = root.unwrap_or_default();
         let chosen = plan.chosen(&named, root.is_empty());
         let served = folders::served(&store, &chosen).await?;
@@ -108,6 +110,7 @@ impl Service {
             root,
             first,
             courses: Courses::default(),
+            first_course,
             plan: RwLock::new(plan),
             limits,
             lti: Connections::default(),
@@ -127,10 +130,10 @@ impl Service {
             homeworks: RwLock::new(served.into_iter().map(with_pictures).collect()),
             generation: AtomicU64::new(0),
             folders: FolderCache::default(),
+            course_turn: Semaphore::new(1),
             check_turn: Semaphore::new(1),
             config,
             store,
-            course_turn: Semaphore::new(1),
             pool,
             clock,
         })))

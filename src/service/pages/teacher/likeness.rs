@@ -11,7 +11,9 @@ use crate::service::identity::{Teacher, TeacherPage};
 use crate::service::likeness::{self, AlikePerson};
 use askama::Template;
 use axum::extract::{Query, State as Shared};
+use axum::http::HeaderMap;
 use axum::response::Response;
+use percent_encoding::{NON_ALPHANUMERIC, utf8_percent_encode};
 use serde::Deserialize;
 use std::collections::HashMap;
 
@@ -41,21 +43,27 @@ struct SideBySidePage {
     place: Tab,
     csrf: String,
     comparison: Comparison,
-    ids: [String; 2],
+    /// The addresses of the two reports.
+    reports: [String; 2],
 }
 
 /// `GET /teacher/likeness`.
 pub(in crate::service::pages) async fn page(
     Shared(state): Shared<State>,
     TeacherPage(teacher): TeacherPage,
+    headers: HeaderMap,
     frame: PageFrame,
 ) -> Result<Response, Problem> {
-    let found = likeness::find(&state).await?;
+    let found = likeness::find(&state, &headers).await?;
     let hidden = hidden(&state, &teacher, &frame).await?;
     let row = |(pair, members): (Pair, [AlikePerson; 2])| {
         let members = members.map(|member| hidden.shown(member));
         let [one, other] = &members;
-        let href = format!("{}/likeness/pair?one={}&other={}", frame.teacher(), one.submission, other.submission);
+        let mut href = format!("{}/likeness/pair?one={}&other={}", frame.teacher(), one.submission, other.submission);
+        // Two of which one is of another course: the other one is of this class.
+        if let Some(course) = &other.course {
+            href.push_str(&format!("&course={}", utf8_percent_encode(&course.root, NON_ALPHANUMERIC)));
+        }
         AlikePairLine { pair, members, href }
     };
     shown(
@@ -77,23 +85,26 @@ pub(in crate::service::pages) async fn page(
 pub(in crate::service::pages) struct Two {
     one: String,
     other: String,
+    /// What the addresses of the other one's course begin with, where that is another one.
+    course: Option<String>,
 }
 
-/// `GET /teacher/likeness/pair?one=&other=`.
+/// `GET /teacher/likeness/pair?one=&other=&course=`.
 pub(in crate::service::pages) async fn side_by_side(
     Shared(state): Shared<State>,
     TeacherPage(teacher): TeacherPage,
-    Query(Two { one, other }): Query<Two>,
+    headers: HeaderMap,
+    Query(Two { one, other, course }): Query<Two>,
     frame: PageFrame,
 ) -> Result<Response, Problem> {
     let hidden = hidden(&state, &teacher, &frame).await?;
-    let members = [likeness::member_of(&state, &one).await?, likeness::member_of(&state, &other).await?];
+    let (there, of_there) = likeness::in_course(&state, course.as_deref(), &headers).await?;
+    let members =
+        [likeness::member_of(&state, &one, None).await?, likeness::member_of(&there, &other, of_there.as_ref()).await?];
+    let reports = [format!("{}/r/{one}", state.root()), format!("{}/r/{other}", there.root())];
     let names = members.map(|member| hidden.shown(member).called());
-    let comparison = likeness::compare(&state, [&one, &other], names).await?;
-    shown(
-        SideBySidePage { place: Tab::Likeness, csrf: teacher.csrf(&state), comparison, ids: [one, other], frame }
-            .render(),
-    )
+    let comparison = likeness::compare([(&state, &one), (&there, &other)], names).await?;
+    shown(SideBySidePage { place: Tab::Likeness, csrf: teacher.csrf(&state), comparison, reports, frame }.render())
 }
 
 /// The names of a class as the one who looks reads them.
@@ -102,6 +113,7 @@ struct ClassNames(Option<HashMap<String, String>>);
 impl ClassNames {
     fn shown(&self, member: AlikePerson) -> AlikePerson {
         match &self.0 {
+            _ if member.course.is_some() => member,
             None => member,
             Some(pseudonyms) => {
                 let number = pseudonyms.get(&member.key).cloned().unwrap_or_default();
