@@ -22,7 +22,7 @@ pub(super) use accounts::vouched_for;
 pub use accounts::{check_may_invite, people};
 pub use codes::{code_needed, personal_code, personal_link};
 pub use cookies::{Jar, STUDENT_COOKIE, TEACHER_COOKIE};
-pub(super) use cookies::{has_launch, set_launch, set_sign_in};
+pub(super) use cookies::{has_launch, has_trial, set_launch, set_sign_in, set_trial};
 pub(super) use cookies::{named as cookie, of_visitor as visitor_cookie};
 pub(super) use join::become_student;
 pub use join::{

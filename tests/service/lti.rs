@@ -70,9 +70,10 @@ async fn begin(bench: &Bench, platform: &Platform, framed: bool) -> Begun {
         "/lti/login?iss={}&login_hint=42&client_id={CLIENT}&lti_message_hint=hint&target_link_uri=x",
         encoded(&platform.issuer)
     );
-    let dest = if framed { "iframe" } else { "document" };
-    let request = Request::get(address).header("sec-fetch-dest", dest).body(Body::empty());
-    let reply = bench.send(request.expect("a request")).await;
+    let reply = match framed {
+        true => with_trial(bench, &address).await,
+        false => visit(bench, &address, "document", "").await,
+    };
     assert_eq!(reply.status, StatusCode::SEE_OTHER, "{reply:?}");
     let next = reqwest::Url::parse(reply.header("location")).expect("an address");
     assert_eq!(next.path(), "/auth");
@@ -83,6 +84,26 @@ async fn begin(bench: &Bench, platform: &Platform, framed: bool) -> Begun {
         cookie: line.split(';').next().expect("a cookie").to_owned(),
         cookie_line: line,
     }
+}
+
+async fn visit(bench: &Bench, address: &str, dest: &str, cookie: &str) -> Reply {
+    let request = Request::get(address).header("sec-fetch-dest", dest).header(header::COOKIE, cookie);
+    let request = request.header(header::ACCEPT, "text/html").header(header::ACCEPT_LANGUAGE, "en");
+    bench.send(request.body(Body::empty()).expect("a request")).await
+}
+
+/// Somebody comes in a frame: the browser is given a cookie to keep first, and comes again with it.
+async fn with_trial(bench: &Bench, address: &str) -> Reply {
+    let reply = visit(bench, address, "iframe", "").await;
+    let again = reply.header("location").to_owned();
+    assert!(again.starts_with("/lti/login?iss=") && again.ends_with("&tried=1"), "{reply:?}");
+    let trial = reply.header("set-cookie").split(';').next().expect("a cookie").to_owned();
+    // One that keeps none is shown a new window before the platform is asked, which answers once for each time that somebody comes.
+    let without = visit(bench, &again, "iframe", "").await;
+    assert_eq!(without.all("h1"), ["Open it in a new window"], "{}", without.text());
+    let link = again.trim_end_matches("&tried=1").replace('&', "&#38;");
+    assert!(without.text().contains(&format!("href=\"{link}\" target=\"_blank\"")), "{}", without.text());
+    visit(bench, &again, "iframe", &trial).await
 }
 
 /// The platform's answer, sent by the browser.
@@ -188,6 +209,12 @@ async fn whoever_launches_is_who_the_platform_says(database: Database) {
     assert_eq!(hand_in(&bench, &theirs, right()).await.status, StatusCode::CREATED);
     let class = get(&bench, "/teacher").await;
     assert_eq!(class.all(".people tbody th"), ["S1 Name of s1"]);
+    // A platform that counts its people sends their ids as numbers.
+    let begun = begin(&bench, &platform, false).await;
+    let mut claims = platform.claims(&begun.query["nonce"], "s7", "Learner");
+    claims["sub"] = json!(7);
+    let seventh = answer(&bench, &begun, &platform.sign(&claims)).await;
+    assert_eq!((seventh.status, seventh.header("location")), (StatusCode::SEE_OTHER, "/a/ggsample06"));
     // The same person in another browser has their history; somebody else who says the same number is not them.
     let again = cookie(&launch(&bench, &platform, "s1", "Learner").await, "ggrade");
     assert!(with_cookie(&bench, "/", &again).await.text().contains("100"));

@@ -81,6 +81,22 @@ pub(super) fn set(service: &Service, base: &str, value: &str, seconds: u64, jar:
     format!("{name}={value}; Path=/; Max-Age={seconds}; HttpOnly; {rest}").parse().ok()
 }
 
+/// Base name of the cookie by which it is seen whether a browser keeps any inside another site's page.
+const TRIAL_COOKIE: &str = "ggrade_trial";
+
+/// Seconds for which that is known.
+const TRIAL: u64 = 600;
+
+/// A `Set-Cookie` that a browser is to keep inside another site's page.
+pub(in crate::service) fn set_trial(service: &Service) -> Option<HeaderValue> {
+    set(service, TRIAL_COOKIE, &"0".repeat(TOKEN_LENGTH), TRIAL, Jar::Embedded)
+}
+
+/// Whether a browser has kept it.
+pub(in crate::service) fn has_trial(service: &Service, headers: &HeaderMap) -> bool {
+    read(service, headers, TRIAL_COOKIE).is_some()
+}
+
 /// Base name of the cookie that binds a launch to its browser; each launch has its own.
 const LAUNCH_COOKIE: &str = "ggrade_launch_";
 

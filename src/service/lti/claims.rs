@@ -16,6 +16,7 @@ pub(super) const DEEP_LINKING: &str = "LtiDeepLinkingRequest";
 #[derive(Debug, Deserialize)]
 pub(super) struct Claims {
     pub nonce: Option<String>,
+    #[serde(default, deserialize_with = "id_or_none")]
     pub sub: Option<String>,
     pub name: Option<String>,
     pub given_name: Option<String>,
@@ -117,6 +118,14 @@ pub(super) fn id<'de, D: Deserializer<'de>>(deserializer: D) -> Result<String, D
         Value::String(text) => Ok(text),
         Value::Number(number) => Ok(number.to_string()),
         other => Err(serde::de::Error::custom(format!("an id is {other}"))),
+    }
+}
+
+/// The same where it may be missing.
+fn id_or_none<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<String>, D::Error> {
+    match Value::deserialize(deserializer)? {
+        Value::Null => Ok(None),
+        value => id(value).map(Some).map_err(serde::de::Error::custom),
     }
 }
 

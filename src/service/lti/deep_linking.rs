@@ -5,7 +5,7 @@ use super::super::identity::new_id;
 use super::super::pages::PageFrame;
 use super::super::store::Platform;
 use super::claims::{Claims, DeepLinking};
-use super::keys::sign;
+use super::keys::{issued_at, sign};
 use super::launch::HOMEWORK;
 use super::platform::checked;
 use super::{address, refused};
@@ -70,7 +70,7 @@ fn answer(service: &Service, platform: &Platform, claims: &Claims, wanted: &Deep
     let mut answer = json!({
         "iss": platform.client_id,
         "aud": platform.issuer,
-        "iat": now,
+        "iat": issued_at(service),
         "exp": now + HOUR,
         "nonce": new_id(),
         "https://purl.imsglobal.org/spec/lti/claim/message_type": "LtiDeepLinkingResponse",

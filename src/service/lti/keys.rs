@@ -29,6 +29,15 @@ const HERALD: u32 = 2;
 /// How long a key stays published after it was made.
 const KEPT: u32 = 2 * LIFE;
 
+/// By how many seconds a signature is dated back: a platform whose clock is behind refuses what is of the future, as Moodle does, and
+/// allows for no difference.
+const BACKDATED: i64 = 30;
+
+/// When what is signed now was issued, in seconds.
+pub(super) fn issued_at(service: &Service) -> i64 {
+    service.clock.now() / 1000 - BACKDATED
+}
+
 /// A key that signs.
 struct SigningKey {
     id: String,

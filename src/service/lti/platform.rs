@@ -4,7 +4,7 @@ use super::super::Service;
 use super::super::clients::Clients;
 use super::super::identity::new_id;
 use super::super::store::Platform;
-use super::keys::sign;
+use super::keys::{issued_at, sign};
 use jsonwebtoken::jwk::{Jwk, JwkSet};
 use percent_encoding::{NON_ALPHANUMERIC, utf8_percent_encode};
 use reqwest::{Method, Response, StatusCode, Url};
@@ -160,7 +160,7 @@ impl Connections {
             "iss": platform.client_id,
             "sub": platform.client_id,
             "aud": platform.token_audience.as_ref().unwrap_or(address),
-            "iat": now,
+            "iat": issued_at(service),
             "exp": now + ASSERTION,
             "jti": new_id(),
         });

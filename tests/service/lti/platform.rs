@@ -18,6 +18,8 @@ use std::sync::{Arc, Mutex};
 pub const CLIENT: &str = "client-of-ggrade";
 pub const DEPLOYMENT: &str = "7";
 const KEY: &str = "platform-key";
+/// Seconds by which its clock is behind.
+const BEHIND: u64 = 20;
 const TOKEN: &str = "an-access-token";
 
 /// The platform.
@@ -122,7 +124,11 @@ impl Platform {
         rules.set_audience(&[audience]);
         rules.set_issuer(&[CLIENT]);
         let key = DecodingKey::from_jwk(key).expect("a key");
-        jsonwebtoken::decode::<Value>(token, &key, &rules).expect("a token of the tool's").claims
+        let claims = jsonwebtoken::decode::<Value>(token, &key, &rules).expect("a token of the tool's").claims;
+        // This platform's clock is behind, and like Moodle's library it takes nothing that is of the future.
+        let now = jsonwebtoken::get_current_timestamp() - BEHIND;
+        assert!(claims["iat"].as_u64().expect("a time") <= now, "of the future: {claims}");
+        claims
     }
 }
 
