@@ -35,7 +35,29 @@ async fn likeness_insights_and_data_fit_every_screen() {
         ),
         ("data", "/teacher/data", "document.querySelector('#number')"),
         ("privacy", "/privacy", "document.querySelector('.kept')"),
+        ("staff", "/teacher/people", "document.querySelector('#login')"),
+        ("log", "/teacher/log", "document.querySelectorAll('.people tbody tr').length > 5"),
+        ("platforms", "/teacher/platforms", "document.querySelector('form [value=add], form [name=wish]')"),
     ];
+    // What a phone shows in the other language.
+    browser.size(390, 844).await;
+    browser.languages("ja").await;
+    for (name, page, is_there) in pages {
+        browser.open(&server.at(page)).await;
+        browser.until(is_there).await;
+        browser.check(&format!("{name}-ja")).await;
+        // Menus open within the page.
+        for menu in 1..=browser.count(".top .menu").await {
+            let open = format!("document.querySelectorAll('.top .menu')[{menu} - 1]");
+            browser.js(&format!("{open}.open = true")).await;
+            let within = format!(
+                "(box => box.left >= 0 && box.right <= innerWidth)({open}.lastElementChild.getBoundingClientRect())"
+            );
+            browser.until(&within).await;
+            browser.js(&format!("{open}.open = false")).await;
+        }
+    }
+    browser.languages("en").await;
     for (width, height) in SIZES {
         browser.size(width, height).await;
         for (name, page, is_there) in pages {

@@ -4,6 +4,7 @@ use super::super::frame::PageFrame;
 use super::super::shown;
 use super::Tab;
 use crate::language::{Language, Text};
+use crate::report::html::rich::{MessagePiece, pieces};
 use crate::service::State;
 use crate::service::errors::Problem;
 use crate::service::identity::TeacherPage;
@@ -66,7 +67,7 @@ struct MistakeChart {
 
 /// A message, with what came after it as parts of a bar.
 struct MessageLine {
-    text: String,
+    text: Vec<MessagePiece>,
     said: usize,
     students: usize,
     counts: [usize; 4],
@@ -156,7 +157,7 @@ fn row(message: &insights::MessageInsight, language: Language) -> MessageLine {
         (x - width, width)
     });
     MessageLine {
-        text: message.text.get(language).to_owned(),
+        text: pieces(message.text.get(language)),
         said: message.said,
         students: message.students,
         counts,
