@@ -229,9 +229,9 @@ fn parse(words: &[u32]) -> Result<Module, Fault> {
         strict_capabilities: false,
         block_ctx_dump_prefix: None,
     };
-    let module = naga::front::spv::Frontend::new(words.iter().copied(), &options)
-        .parse()
-        .map_err(|error| unsupported(&error.to_string()))?;
+    // naga's own function, unlike its generic reader of words, is compiled in naga and not once more here.
+    let bytes: Vec<u8> = words.iter().flat_map(|word| word.to_le_bytes()).collect();
+    let module = naga::front::spv::parse_u8_slice(&bytes, &options).map_err(|error| unsupported(&error.to_string()))?;
     if module.entry_points.is_empty() {
         return Err(unsupported("no entry point"));
     }
