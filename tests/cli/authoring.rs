@@ -271,11 +271,20 @@ fn switches_and_kinds_in_a_block_become_a_homework() {
     let written = Written::from(&["workshop.frag"]);
     written.tells("if (!lamp.isOn)", "if (i < 0)");
     for (from, to) in [("case 1:", "case 7:"), ("case 2:", "case 7:"), ("sharpness)", "16.0)")] {
-        assert_eq!(written.graded(&[(from, to)])["verdict"], "wrong", "{to}");
+        written.tells(from, to);
     }
     // A block is filled with bits, in which a truth value is a whole number.
     let number = [("bool isOn", "uint isOn"), ("!lamp.isOn", "lamp.isOn == 0u")];
     assert_eq!(written.graded(&number)["verdict"], "correct");
+}
+
+#[test]
+fn what_no_part_shows_has_a_line_of_its_own() {
+    // Two operators are parts that can be taken out; what is wrong in a third one is beside both.
+    let written = Written::from(&["tonemap.frag"]);
+    written.tells("vec3(0.2126, 0.7152, 0.0722)", "vec3(0.299, 0.587, 0.114)");
+    let manifest = written.text("assignment.toml");
+    assert!(manifest.contains("id = \"aces\"") && manifest.contains("id = \"colour\""), "{manifest}");
 }
 
 #[test]

@@ -83,6 +83,22 @@ impl Footprints {
         (0..self.shows.len()).filter(|line| self.shows[*line].is_some())
     }
 
+    /// The probes at which nothing of the rubric shows, though every line but those of the position has a feature: what is wrong
+    /// only there costs no points.
+    pub fn unjudged(&self, alternatives: &Alternatives<'_>) -> Vec<usize> {
+        let assignment = alternatives.assignment;
+        let is_rest = |line: usize| self.shows[line].is_none() && !assignment.judges_position(&assignment.rubric[line]);
+        if self.lines().next().is_none() || (0..self.shows.len()).any(is_rest) {
+            return Vec::new();
+        }
+        let shown: Vec<Vec<usize>> = self.lines().map(|line| self.of_line(line)).collect();
+        // Where all is cut off at white, or thrown away, little can be wrong.
+        let tells = |colour: DVec3| colour != DISCARDED && colour.min_element() < FULL;
+        let probes = alternatives.probes.iter().enumerate().filter(|(_, probe)| tells(probe.colour));
+        let places = probes.map(|(place, _)| place);
+        places.filter(|place| !shown.iter().any(|shown| shown.binary_search(place).is_ok())).collect()
+    }
+
     /// The probes at which a line's feature shows.
     pub fn of_line(&self, line: usize) -> Vec<usize> {
         probes_of(&self.beside(line, &|_| true))

@@ -54,7 +54,8 @@ fn line(id: &str, judges: Option<&str>) -> ProposedLine {
     ProposedLine { id: id.to_owned(), label: label(id), judges: judges.map(str::to_owned), local: None, without: None }
 }
 
-/// Puts lines for parts in the place of the line of the colour, or beside it where there is only one.
+/// Puts lines for parts in the place of the line of the colour, or beside it where there is only one, or where they leave much
+/// of the picture to no line.
 pub(super) fn refine(plan: &mut FolderPlan) {
     let base = plan.rubric.clone();
     let shape: Vec<ProposedLine> = base.iter().filter(|line| line.id == "shape").cloned().collect();
@@ -63,11 +64,24 @@ pub(super) fn refine(plan: &mut FolderPlan) {
         let before: &[ProposedLine] = if terms.len() == 1 { &base } else { &shape };
         plan.rubric = before.iter().chain(&terms).cloned().collect();
         match worst(plan, before, &terms) {
-            None => return by_definitions(plan),
+            None => {
+                if leaves_much(plan) {
+                    plan.rubric = base.iter().chain(&terms).cloned().collect();
+                }
+                return by_definitions(plan);
+            }
             Some(at) => drop(terms.remove(at)),
         }
     }
     plan.rubric = base;
+}
+
+/// Whether an answer may be wrong at many probes, and right by every line.
+fn leaves_much(plan: &FolderPlan) -> bool {
+    let Ok(assignment) = Assignment::load(plan.folder()) else { return false };
+    let probes = assignment.judging_probes();
+    let alternatives = fit::Alternatives::new(&assignment, &probes);
+    fit::Footprints::of(&alternatives, fit::TOLERANCE).unjudged(&alternatives).len() >= fit::FEWEST
 }
 
 /// Names the definition that a line judges, where the solution has one of its name: a hand-in's own value is looked up then.

@@ -54,7 +54,25 @@ fn say_features(
         }
         album.put(&format!("without-{id}"), frames.iter().flatten().map(picture).collect())?;
     }
+    say_unjudged(said, footprints.unjudged(alternatives).len(), probes.probes.len());
     Ok(())
+}
+
+/// Says that an answer may be wrong where no line of the rubric looks.
+fn say_unjudged(said: CheckWording, count: usize, all: usize) {
+    if count < fit::FEWEST {
+        return;
+    }
+    said.note(&Text::new(
+        format!(
+            "rubric: no line shows at {count} of {all} probes: an answer that is wrong only there keeps all points. Add a line \
+             without `without`, which judges all of the picture"
+        ),
+        format!(
+            "採点の行: 検査点 {all} 点中 {count} 点にはどの行も現れません。そこだけが間違っている答えは満点のままです。画像全体を採点する、\
+             `without` のない行を加えてください"
+        ),
+    ));
 }
 
 /// Says where a mistake shows in the first way in which it is written, and draws each.
