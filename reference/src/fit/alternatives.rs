@@ -9,8 +9,8 @@ use std::cell::OnceCell;
 /// What the alternatives of an assignment show at some probes. Each is run once, when it is first asked for.
 #[derive(Debug)]
 pub struct Alternatives<'a> {
-    pub(super) assignment: &'a Assignment,
-    pub(super) probes: &'a ProbeSet,
+    pub(crate) assignment: &'a Assignment,
+    pub(crate) probes: &'a ProbeSet,
     programs: Vec<(FoundMistake, &'a AcceptedAnswer, OnceCell<Vec<Computed>>)>,
     features: Vec<OnceCell<Vec<Computed>>>,
 }

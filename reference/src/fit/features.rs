@@ -91,12 +91,11 @@ impl Footprints {
         if self.lines().next().is_none() || (0..self.shows.len()).any(is_rest) {
             return Vec::new();
         }
-        let shown: Vec<Vec<usize>> = self.lines().map(|line| self.of_line(line)).collect();
+        let is_shown = |place: usize| self.shows.iter().flatten().any(|shows| shows[place].contains(&true));
         // Where all is cut off at white, or thrown away, little can be wrong.
         let tells = |colour: DVec3| colour != DISCARDED && colour.min_element() < FULL;
         let probes = alternatives.probes.iter().enumerate().filter(|(_, probe)| tells(probe.colour));
-        let places = probes.map(|(place, _)| place);
-        places.filter(|place| !shown.iter().any(|shown| shown.binary_search(place).is_ok())).collect()
+        probes.map(|(place, _)| place).filter(|place| !is_shown(*place)).collect()
     }
 
     /// The probes at which a line's feature shows.

@@ -63,25 +63,25 @@ pub(super) fn refine(plan: &mut FolderPlan) {
     while !terms.is_empty() {
         let before: &[ProposedLine] = if terms.len() == 1 { &base } else { &shape };
         plan.rubric = before.iter().chain(&terms).cloned().collect();
-        match worst(plan, before, &terms) {
-            None => {
-                if leaves_much(plan) {
-                    plan.rubric = base.iter().chain(&terms).cloned().collect();
-                }
-                return by_definitions(plan);
-            }
-            Some(at) => drop(terms.remove(at)),
+        let Ok(assignment) = Assignment::load(plan.folder()) else {
+            let at = broken(plan, before, &terms);
+            terms.remove(at);
+            continue;
+        };
+        let probes = assignment.judging_probes();
+        let alternatives = fit::Alternatives::new(&assignment, &probes);
+        let footprints = fit::Footprints::of(&alternatives, fit::TOLERANCE);
+        if let Some(at) = worst(plan, before.len(), &terms, &alternatives, &footprints) {
+            terms.remove(at);
+            continue;
         }
+        // An answer may be wrong at many probes, and right by every line.
+        if footprints.unjudged(&alternatives).len() >= fit::FEWEST {
+            plan.rubric = base.iter().chain(&terms).cloned().collect();
+        }
+        return by_definitions(plan);
     }
     plan.rubric = base;
-}
-
-/// Whether an answer may be wrong at many probes, and right by every line.
-fn leaves_much(plan: &FolderPlan) -> bool {
-    let Ok(assignment) = Assignment::load(plan.folder()) else { return false };
-    let probes = assignment.judging_probes();
-    let alternatives = fit::Alternatives::new(&assignment, &probes);
-    fit::Footprints::of(&alternatives, fit::TOLERANCE).unjudged(&alternatives).len() >= fit::FEWEST
 }
 
 /// Names the definition that a line judges, where the solution has one of its name: a hand-in's own value is looked up then.
@@ -94,21 +94,26 @@ fn by_definitions(plan: &mut FolderPlan) {
     }
 }
 
-/// One of these that cannot be a line: what is without it is no program, or shows nothing, or shows what another shows.
-fn worst(plan: &mut FolderPlan, before: &[ProposedLine], terms: &[ProposedLine]) -> Option<usize> {
-    let Ok(assignment) = Assignment::load(plan.folder()) else {
-        // Each is tried alone.
-        let mut loads = |term: &ProposedLine| {
-            plan.rubric = before.iter().chain([term]).cloned().collect();
-            Assignment::load(plan.folder()).is_ok()
-        };
-        return Some(terms.iter().position(|term| !loads(term)).unwrap_or(terms.len() - 1));
+/// One of these without which the solution is no program: each is tried alone.
+fn broken(plan: &mut FolderPlan, before: &[ProposedLine], terms: &[ProposedLine]) -> usize {
+    let mut loads = |term: &ProposedLine| {
+        plan.rubric = before.iter().chain([term]).cloned().collect();
+        Assignment::load(plan.folder()).is_ok()
     };
-    let probes = assignment.judging_probes();
-    let alternatives = fit::Alternatives::new(&assignment, &probes);
-    let footprints = fit::Footprints::of(&alternatives, fit::TOLERANCE);
+    terms.iter().position(|term| !loads(term)).unwrap_or(terms.len() - 1)
+}
+
+/// One of these, which stand behind so many other lines, that cannot be a line: it shows nothing, or what another shows.
+fn worst(
+    plan: &FolderPlan,
+    before: usize,
+    terms: &[ProposedLine],
+    alternatives: &fit::Alternatives<'_>,
+    footprints: &fit::Footprints,
+) -> Option<usize> {
+    let fit::Alternatives { assignment, probes, .. } = *alternatives;
     if let Some(weak) = footprints.lines().find(|line| footprints.of_line(*line).len() < fit::FEWEST) {
-        return weak.checked_sub(before.len());
+        return weak.checked_sub(before);
     }
     // What moves vertices is judged by the line of the shape.
     let moves = |line: &usize| {
@@ -118,9 +123,9 @@ fn worst(plan: &mut FolderPlan, before: &[ProposedLine], terms: &[ProposedLine])
     if plan.hands_in(Stage::Vertex)
         && let Some(moving) = (0..assignment.features.len()).find(moves)
     {
-        return moving.checked_sub(before.len());
+        return moving.checked_sub(before);
     }
-    let alike = fit::alike(&alternatives, fit::TOLERANCE);
+    let alike = fit::alike(alternatives, fit::TOLERANCE);
     let (name, _) = alike.first()?;
     let found = terms.iter().position(|term| name.contains(&format!("`no-{}`", term.id)));
     Some(found.unwrap_or(terms.len() - 1))
