@@ -63,7 +63,7 @@ impl Assignment {
     /// The uniforms of the handed-in stages whose value stays, and with other values of which the solution shows the same at all probes.
     pub fn idle_uniforms(&self, probes: &ProbeSet) -> Vec<&str> {
         let (_, few) = probes.part(GROUPS);
-        let solution = AcceptedAnswer { name: String::new(), pipeline: self.pipeline.clone(), reading: None };
+        let solution = self.own_answer();
         let right = self.computed_by(&solution, &few);
         let is_handed_in = |path: &str| {
             self.files.iter().filter(|file| file.program.is_none()).any(|file| {
@@ -77,9 +77,7 @@ impl Assignment {
         let is_idle = |place: usize, kind: &Type| {
             let ways = ways(kind);
             let is_same = |way: &UniformChange| {
-                let mut other = few.clone();
-                other.groups.iter_mut().for_each(|group| group.uniforms[place] = way(&group.uniforms[place]));
-                let shown = self.computed_by(&solution, &other);
+                let shown = self.computed_by(&solution, &with_uniform(&few, place, way));
                 right.iter().zip(&shown).all(|(right, shown)| same(right, shown))
             };
             !ways.is_empty() && ways.iter().all(is_same)
@@ -99,18 +97,14 @@ impl Assignment {
     /// The uniform that shows each of some parts when it has another value, and such a value: the nearest of the first one.
     pub fn revealing(&self, parts: &[&UnseenPart], probes: &ProbeSet) -> Vec<Option<Revealing>> {
         let (_, few) = probes.part(GROUPS);
-        let solution = AcceptedAnswer { name: String::new(), pipeline: self.pipeline.clone(), reading: None };
+        let solution = self.own_answer();
         let mut found: Vec<Option<Revealing>> = vec![None; parts.len()];
         for (place, uniform) in self.interface.uniforms.iter().enumerate() {
             if !matches!(uniform.feed, Feed::Constant(_)) {
                 continue;
             }
             for way in ways(&uniform.kind) {
-                let mut other = few.clone();
-                for group in &mut other.groups {
-                    let value = &mut group.uniforms[place];
-                    *value = way(value);
-                }
+                let other = with_uniform(&few, place, &way);
                 let right = self.computed_by(&solution, &other);
                 let is_defined = right.iter().all(|(colour, position)| colour.is_finite() && position.is_finite());
                 if !is_defined {
@@ -126,6 +120,18 @@ impl Assignment {
         }
         found
     }
+
+    /// The solution as an answer.
+    fn own_answer(&self) -> AcceptedAnswer {
+        AcceptedAnswer { name: String::new(), pipeline: self.pipeline.clone(), reading: None }
+    }
+}
+
+/// The same probes with another value of the uniform at this place.
+fn with_uniform(probes: &ProbeSet, place: usize, way: &UniformChange) -> ProbeSet {
+    let mut other = probes.clone();
+    other.groups.iter_mut().for_each(|group| group.uniforms[place] = way(&group.uniforms[place]));
+    other
 }
 
 /// How a value is changed.
