@@ -8,27 +8,40 @@ use crate::expected;
 use crate::report::{Picture, SILHOUETTE};
 use reference::Assignment;
 use reference::rasteriser::{Coverage, Frame};
-use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
 /// What is drawn once a process, by the digest of the assignment. While one is drawn, nobody waits who wants another.
-type PicturesOnce<T> = Mutex<Vec<(String, Arc<OnceLock<Arc<[T]>>>)>>;
+pub struct DrawnOnce<T>(Mutex<BTreeMap<String, OnceOfOne<T>>>);
 
-fn once<T>(drawn: &PicturesOnce<T>, assignment: &Assignment, draw: impl FnOnce() -> Arc<[T]>) -> Arc<[T]> {
-    let mut known = drawn.lock().unwrap_or_else(PoisonError::into_inner);
-    let found = known.iter().find(|(digest, _)| *digest == assignment.digest).map(|(_, pictures)| Arc::clone(pictures));
-    let pictures = found.unwrap_or_else(|| {
-        let pictures = Arc::default();
-        known.push((assignment.digest.clone(), Arc::clone(&pictures)));
-        pictures
-    });
-    drop(known);
-    Arc::clone(pictures.get_or_init(draw))
+type OnceOfOne<T> = Arc<OnceLock<Arc<[T]>>>;
+
+impl<T> DrawnOnce<T> {
+    /// Nothing is drawn yet.
+    pub const fn empty() -> Self {
+        Self(Mutex::new(BTreeMap::new()))
+    }
+
+    /// What is drawn for an assignment, drawn now where it is not there.
+    pub fn of(&self, assignment: &Assignment, draw: impl FnOnce() -> Arc<[T]>) -> Arc<[T]> {
+        let drawn = Arc::clone(self.locked().entry(assignment.digest.clone()).or_default());
+        Arc::clone(drawn.get_or_init(draw))
+    }
+
+    /// All that is drawn by now.
+    pub fn all(&self) -> Vec<Arc<[T]>> {
+        self.locked().values().filter_map(|drawn| drawn.get().cloned()).collect()
+    }
+
+    fn locked(&self) -> MutexGuard<'_, BTreeMap<String, OnceOfOne<T>>> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
 }
 
 /// The reference's frames as pictures, drawn once a process.
 pub fn expected_pictures(assignment: &Assignment) -> Arc<[Picture]> {
-    static DRAWN: PicturesOnce<Picture> = Mutex::new(Vec::new());
-    once(&DRAWN, assignment, || expected::of_solution(assignment).map(|frame| picture(&frame)).collect())
+    static DRAWN: DrawnOnce<Picture> = DrawnOnce::empty();
+    DRAWN.of(assignment, || expected::of_solution(assignment).map(|frame| picture(&frame)).collect())
 }
 
 /// A right picture; its alpha says where it may be drawn otherwise.

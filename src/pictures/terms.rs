@@ -1,6 +1,6 @@
 //! Each term of the equation on its own: as a right answer computes it, and as a submission does where that is explained.
 
-use super::{PicturesOnce, once, picture};
+use super::{DrawnOnce, picture};
 use crate::diagnose::constants;
 use crate::report::{Hypothesis, Picture, TermPictures};
 use crate::source::Source;
@@ -9,7 +9,7 @@ use reference::assignment::RubricLine;
 use reference::mistake::FoundMistake;
 use reference::rasteriser::ClipVertex;
 use reference::scene::Pose;
-use std::sync::{Arc, Mutex};
+use std::sync::Arc;
 
 /// The terms of a submission.
 #[derive(Debug)]
@@ -103,7 +103,7 @@ impl<'a> Terms<'a> {
 
     /// All of them, drawn. Those of right answers are drawn once a process.
     pub fn pictures(&self) -> Arc<[TermPictures]> {
-        static RIGHT: PicturesOnce<TermPictures> = Mutex::new(Vec::new());
+        static RIGHT: DrawnOnce<TermPictures> = DrawnOnce::empty();
         let pictures = |scene: TermScene<'_>| {
             let expected = self.expected(&scene)?;
             // Most wrong answers compute most terms as they should: such a term is drawn once.
@@ -111,7 +111,7 @@ impl<'a> Terms<'a> {
             Some(TermPictures { id: scene.id().to_owned(), t: scene.t(), yours, expected })
         };
         let draw = || self.scenes().into_iter().filter_map(pictures).collect();
-        if self.is_right { once(&RIGHT, self.assignment, draw) } else { draw() }
+        if self.is_right { RIGHT.of(self.assignment, draw) } else { draw() }
     }
 }
 

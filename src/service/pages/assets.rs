@@ -1,7 +1,7 @@
 //! What pages load besides themselves: styles, scripts, the right pictures of each assignment. All of it is part of the
 //! program; an address holds a hash of the content, so that a browser may keep it for ever.
 
-use crate::pictures::{expected_pictures, telling_pose};
+use crate::pictures::{DrawnOnce, expected_pictures, telling_pose};
 use crate::report::html::{BASE_STYLE, Motion, REPORT_STYLE, SCRIPT, expected_sheet};
 use axum::extract::Path;
 use axum::http::{HeaderValue, StatusCode, header};
@@ -9,8 +9,7 @@ use axum::response::{IntoResponse, Response};
 use reference::Assignment;
 use sha2::{Digest, Sha256};
 use std::borrow::Cow;
-use std::collections::BTreeMap;
-use std::sync::{Arc, LazyLock, Mutex, OnceLock, PoisonError};
+use std::sync::{Arc, LazyLock};
 
 /// One file.
 #[derive(Debug)]
@@ -68,19 +67,12 @@ static ASSETS: LazyLock<Vec<Asset>> = LazyLock::new(|| {
     ]
 });
 
-/// The assets of one assignment, as soon as they are drawn.
-type DrawnOnce = Arc<OnceLock<Vec<Asset>>>;
-
-/// What is drawn for each assignment, by its digest. While one is drawn, the others are served.
-static DRAWN: Mutex<BTreeMap<String, DrawnOnce>> = Mutex::new(BTreeMap::new());
+/// What is drawn for each assignment.
+static DRAWN: DrawnOnce<Asset> = DrawnOnce::empty();
 
 /// How the pictures of an assignment move, and the right ones; drawn once.
-fn of_assignment(assignment: &Assignment) -> DrawnOnce {
-    let mut drawn = DRAWN.lock().unwrap_or_else(PoisonError::into_inner);
-    let assets = Arc::clone(drawn.entry(assignment.digest.clone()).or_default());
-    drop(drawn);
-    assets.get_or_init(|| draw(assignment));
-    assets
+fn of_assignment(assignment: &Assignment) -> Arc<[Asset]> {
+    DRAWN.of(assignment, || draw(assignment).into())
 }
 
 fn draw(assignment: &Assignment) -> Vec<Asset> {
@@ -130,13 +122,7 @@ pub(super) fn expected(assignment: &Assignment) -> String {
 
 fn address_of(assignment: &Assignment, name: &str) -> String {
     let drawn = of_assignment(assignment);
-    drawn
-        .get()
-        .into_iter()
-        .flatten()
-        .find(|asset| asset.name == name)
-        .map_or(NONE, |asset| asset.address.as_str())
-        .to_owned()
+    drawn.iter().find(|asset| asset.name == name).map_or(NONE, |asset| asset.address.as_str()).to_owned()
 }
 
 /// The address of what there is not.
@@ -147,13 +133,8 @@ pub(super) async fn serve(Path(name): Path<String>) -> Response {
     let address = format!("/assets/{name}");
     let is_it = |asset: &&Asset| asset.address == address;
     let drawn = || {
-        let drawn = DRAWN.lock().unwrap_or_else(PoisonError::into_inner);
-        drawn
-            .values()
-            .filter_map(|assets| assets.get())
-            .flatten()
-            .find(is_it)
-            .map(|asset| (asset.kind, asset.content.clone()))
+        let drawn = DRAWN.all();
+        drawn.iter().flat_map(|assets| assets.iter()).find(is_it).map(|asset| (asset.kind, asset.content.clone()))
     };
     let fixed = ASSETS.iter().find(is_it).map(|asset| (asset.kind, asset.content.clone()));
     let Some((kind, content)) = fixed.or_else(drawn) else { return StatusCode::NOT_FOUND.into_response() };
