@@ -12,6 +12,7 @@ use crate::hand_in::HandIn;
 use crate::likeness::{Answer, Comparison, Likeness, Pair};
 use crate::source::Source;
 use axum::http::HeaderMap;
+use percent_encoding::{NON_ALPHANUMERIC, utf8_percent_encode};
 
 /// Most pairs that are told.
 const MOST: usize = 200;
@@ -40,6 +41,13 @@ pub struct OtherCourse {
     pub root: String,
     /// What it is called, or its short name.
     pub title: String,
+}
+
+impl OtherCourse {
+    /// What names it in the query of an address.
+    pub fn query(&self) -> String {
+        format!("course={}", utf8_percent_encode(&self.root, NON_ALPHANUMERIC))
+    }
 }
 
 impl AlikePerson {
@@ -153,14 +161,19 @@ pub async fn in_course(
 /// Somebody with the attempt that counts, or the last one while none is graded.
 fn member(person: &Person, is_of_class: bool) -> Option<AlikePerson> {
     let row = person.counted().or_else(|| person.rows.first())?;
-    Some(AlikePerson {
+    Some(with(person, &row.row.submission.id, is_of_class))
+}
+
+/// Somebody with one of their submissions.
+fn with(person: &Person, submission: &str, is_of_class: bool) -> AlikePerson {
+    AlikePerson {
         key: person.key.clone(),
         number: person.number.clone(),
         name: person.name.clone(),
-        submission: row.row.submission.id.clone(),
+        submission: submission.to_owned(),
         is_of_class,
         course: None,
-    })
+    }
 }
 
 /// Two hand-ins of a homework side by side, each in its course; the names are those that are to be shown.
@@ -190,13 +203,7 @@ pub async fn member_of(state: &State, submission: &str, there: Option<&Teacher>)
     let all = class.iter().map(|person| (person, true)).chain(apart.iter().map(|person| (person, false)));
     let mut found = all.filter(|(person, _)| person.rows.iter().any(|row| row.row.submission.id == submission));
     let (person, is_of_class) = found.next().ok_or_else(Problem::not_found)?;
-    let of = AlikePerson {
-        key: person.key.clone(),
-        number: person.number.clone(),
-        name: person.name.clone(),
-        submission: submission.to_owned(),
-        is_of_class: is_of_class && there.is_none(),
-        course: if there.is_some() { Some(other_course(state).await?) } else { None },
-    };
-    Ok(if there.is_none_or(Teacher::sees_names) { of } else { of.nameless() })
+    let Some(teacher) = there else { return Ok(with(person, submission, is_of_class)) };
+    let of_there = AlikePerson { course: Some(other_course(state).await?), ..with(person, submission, false) };
+    Ok(if teacher.sees_names() { of_there } else { of_there.nameless() })
 }

@@ -13,7 +13,6 @@ use axum::extract::rejection::QueryRejection;
 use axum::extract::{Path, Query, State as Shared};
 use axum::http::HeaderMap;
 use axum::response::Response;
-use percent_encoding::{NON_ALPHANUMERIC, utf8_percent_encode};
 use serde::{Deserialize, Serialize};
 
 /// How much two answers are alike: a hint, and no verdict.
@@ -122,7 +121,7 @@ pub(super) async fn list(
 fn comparison(one: &AlikePerson, other: &AlikePerson) -> String {
     let address = at(&format!("/api/v1/submissions/{}/likeness/{}", one.submission, other.submission));
     match &other.course {
-        Some(course) => format!("{address}?course={}", utf8_percent_encode(&course.root, NON_ALPHANUMERIC)),
+        Some(course) => format!("{address}?{}", course.query()),
         None => address,
     }
 }

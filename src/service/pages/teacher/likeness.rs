@@ -13,7 +13,6 @@ use askama::Template;
 use axum::extract::{Query, State as Shared};
 use axum::http::HeaderMap;
 use axum::response::Response;
-use percent_encoding::{NON_ALPHANUMERIC, utf8_percent_encode};
 use serde::Deserialize;
 use std::collections::HashMap;
 
@@ -62,7 +61,7 @@ pub(in crate::service::pages) async fn page(
         let mut href = format!("{}/likeness/pair?one={}&other={}", frame.teacher(), one.submission, other.submission);
         // Two of which one is of another course: the other one is of this class.
         if let Some(course) = &other.course {
-            href.push_str(&format!("&course={}", utf8_percent_encode(&course.root, NON_ALPHANUMERIC)));
+            href.push_str(&format!("&{}", course.query()));
         }
         AlikePairLine { pair, members, href }
     };
