@@ -106,7 +106,12 @@ pub(super) fn capture_layout(
 ) -> wgpu::BindGroupLayout {
     let mut entries = vec![layout_entry(stage, 0, wgpu::BufferBindingType::Storage { read_only: false }, false)];
     if reads_textures {
-        entries.push(layout_entry(stage, TEXTURES.1, wgpu::BufferBindingType::Storage { read_only: true }, false));
+        let ty = wgpu::BindingType::Texture {
+            sample_type: wgpu::TextureSampleType::Uint,
+            view_dimension: wgpu::TextureViewDimension::D2,
+            multisampled: false,
+        };
+        entries.push(wgpu::BindGroupLayoutEntry { binding: TEXTURES.1, visibility: stage, ty, count: None });
     }
     device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some("capture"), entries: &entries })
 }
@@ -116,12 +121,13 @@ pub(super) fn capture_group(
     device: &wgpu::Device,
     layout: &wgpu::BindGroupLayout,
     header: &wgpu::Buffer,
-    textures: Option<&wgpu::Buffer>,
+    textures: Option<&wgpu::TextureView>,
 ) -> wgpu::BindGroup {
     let mut entries = vec![wgpu::BindGroupEntry { binding: 0, resource: header.as_entire_binding() }];
-    entries.extend(
-        textures.map(|buffer| wgpu::BindGroupEntry { binding: TEXTURES.1, resource: buffer.as_entire_binding() }),
-    );
+    entries.extend(textures.map(|picture| wgpu::BindGroupEntry {
+        binding: TEXTURES.1,
+        resource: wgpu::BindingResource::TextureView(picture),
+    }));
     device.create_bind_group(&wgpu::BindGroupDescriptor { label: Some("capture"), layout, entries: &entries })
 }
 

@@ -54,7 +54,7 @@ impl Capture {
         stage: &FrameStage,
         shader: &Shader,
         scene: &RenderScene,
-        textures: Option<&wgpu::Buffer>,
+        textures: Option<&wgpu::TextureView>,
     ) -> Self {
         let batches: Vec<&DrawCall> = scene.batches().collect();
         let uniforms = UniformBuffers::new(device, wgpu::ShaderStages::VERTEX, &shader.uniforms, &batches);

@@ -192,7 +192,7 @@ impl FragmentData {
         device: &wgpu::Device,
         stage: &FragmentStage,
         batches: &[&DrawCall],
-        textures: Option<&wgpu::Buffer>,
+        textures: Option<&wgpu::TextureView>,
         is_frame: bool,
     ) -> Self {
         let header = stage.has_group().then(|| {

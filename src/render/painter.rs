@@ -57,7 +57,7 @@ impl Painter {
         stage: &mut FragmentStage,
         records: &Records<'_>,
         scene: &RenderScene,
-        textures: Option<&wgpu::Buffer>,
+        textures: Option<&wgpu::TextureView>,
         tiles: &Tiles,
     ) -> (&mut RenderTarget, FragmentData) {
         let is_tested = |draw: &DrawCall| draw.state.depth_test.is_some();

@@ -39,7 +39,7 @@ impl PixelPass {
         device: &Device,
         stage: &mut FragmentStage,
         batches: &[DrawCall],
-        textures: Option<&wgpu::Buffer>,
+        textures: Option<&wgpu::TextureView>,
     ) -> Self {
         let drawn: Vec<&DrawCall> = batches.iter().collect();
         let data = FragmentData::new(&device.device, stage, &drawn, textures, false);

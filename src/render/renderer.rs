@@ -68,7 +68,7 @@ impl Renderer {
     /// Makes the textures of an assignment ready, which takes longer than a submission may: depths are drawn for it.
     pub fn prepare(&self, textures: &Arc<[Texture]>) {
         if !textures.is_empty() {
-            self.textures.borrow_mut().buffer(&self.device.device, textures);
+            self.textures.borrow_mut().picture(&self.device, textures);
         }
     }
 
@@ -81,7 +81,7 @@ impl Renderer {
         let records = Records { buffer: &capture.records, outputs: &shader.outputs };
         let Some(fragments) = &mut self.fragments else { return Err(lost("there is no fixed fragment stage")) };
         let textures =
-            fragments.reads_textures.then(|| self.textures.borrow_mut().buffer(&self.device.device, &scene.textures));
+            fragments.reads_textures.then(|| self.textures.borrow_mut().picture(&self.device, &scene.textures));
         paint(&self.device, &mut self.painter, fragments, &records, scene, textures.as_ref(), rendering)
     }
 
@@ -163,9 +163,9 @@ impl Renderer {
     }
 
     /// The textures of the scene, where a stage reads them.
-    fn textures(&self, stages: &[&Shader], scene: &RenderScene) -> Option<wgpu::Buffer> {
+    fn textures(&self, stages: &[&Shader], scene: &RenderScene) -> Option<wgpu::TextureView> {
         let is_read = stages.iter().any(|stage| stage.reads_textures);
-        is_read.then(|| self.textures.borrow_mut().buffer(&self.device.device, &scene.textures))
+        is_read.then(|| self.textures.borrow_mut().picture(&self.device, &scene.textures))
     }
 
     fn run(&self, shader: &Shader, scene: &RenderScene) -> Result<(Capture, Rendering), Fault> {
@@ -208,7 +208,7 @@ fn paint(
     stage: &mut FragmentStage,
     records: &Records<'_>,
     scene: &RenderScene,
-    textures: Option<&wgpu::Buffer>,
+    textures: Option<&wgpu::TextureView>,
     mut rendering: Rendering,
 ) -> Result<Rendering, Fault> {
     let area = |vertices: &Vec<Sample>| {

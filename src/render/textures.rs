@@ -1,29 +1,44 @@
-//! The textures of a scene as shaders read them: one buffer of numbers (see `textures.glsl` of the translator).
+//! The textures of a scene as shaders read them: one picture of numbers (see `textures.glsl` of the translator).
 
+use super::device::Device;
 use crate::translate::{DESCRIPTION, descriptions};
 use reference::interpreter::{Texels, Texture};
 use std::sync::Arc;
 use wgpu::util::DeviceExt;
 
+/// Numbers of a row of the picture, as `textures.glsl` has it.
+const ROW: u32 = 8192;
+
 /// The textures of the last scene, which many submissions are drawn with.
 #[derive(Debug, Default)]
 pub(super) struct UploadedTextures {
-    last: Option<(Arc<[Texture]>, wgpu::Buffer)>,
+    last: Option<(Arc<[Texture]>, wgpu::TextureView)>,
 }
 
 impl UploadedTextures {
-    /// The buffer of a scene's textures.
-    pub fn buffer(&mut self, device: &wgpu::Device, textures: &Arc<[Texture]>) -> wgpu::Buffer {
-        if let Some((_, buffer)) = self.last.as_ref().filter(|(known, _)| Arc::ptr_eq(known, textures)) {
-            return buffer.clone();
+    /// The picture of a scene's textures.
+    pub fn picture(&mut self, device: &Device, textures: &Arc<[Texture]>) -> wgpu::TextureView {
+        if let Some((_, picture)) = self.last.as_ref().filter(|(known, _)| Arc::ptr_eq(known, textures)) {
+            return picture.clone();
         }
-        let buffer = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+        let mut words = words(textures);
+        words.resize(words.len().next_multiple_of(ROW as usize), 0);
+        let descriptor = wgpu::TextureDescriptor {
             label: Some("textures"),
-            contents: bytemuck::cast_slice(&words(textures)),
-            usage: wgpu::BufferUsages::STORAGE,
-        });
-        self.last = Some((Arc::clone(textures), buffer.clone()));
-        buffer
+            size: wgpu::Extent3d { width: ROW, height: words.len() as u32 / ROW, depth_or_array_layers: 1 },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: wgpu::TextureFormat::R32Uint,
+            usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+            view_formats: &[],
+        };
+        let order = wgpu::util::TextureDataOrder::LayerMajor;
+        let texture =
+            device.device.create_texture_with_data(&device.queue, &descriptor, order, bytemuck::cast_slice(&words));
+        let picture = texture.create_view(&wgpu::TextureViewDescriptor::default());
+        self.last = Some((Arc::clone(textures), picture.clone()));
+        picture
     }
 }
 

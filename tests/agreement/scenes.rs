@@ -318,6 +318,11 @@ const BODIES: &[(&str, &str)] = &[
     ("texture-gather", "colour = textureGather(second, uv, 1);"),
     ("texture-gradient", "colour = textureGrad(first, uv, dFdx(uv), dFdy(uv)) + texture(second, uv, 0.5) * 0.1;"),
     (
+        "texture-derivative",
+        "colour = vec4(fwidth(texture(first, uv * 4.0).xyz) + fwidth(texelFetch(second, ivec2(uv * 4.9), 0).x), 1.0);",
+    ),
+    ("texture-size-derivative", "colour = vec4(fwidth(uv * vec2(textureSize(first, 0))), 0.0, 1.0);"),
+    (
         "texture-in-loop",
         "colour = vec4(0.0); for (int x = -1; x <= 1; x++) for (int y = -1; y <= 1; y++) \
         colour += texture(first, uv + vec2(x, y) / vec2(textureSize(first, 0))) / 9.0;",

@@ -22,6 +22,6 @@ void main()
     c = mix(c, graded, grading);
 
     vec3 edge = texture(ramp, uv.x).rgb;
-    vec2 d = abs(fract(place) - 0.5) * 2.0;
-    color = vec4(mix(c, edge, step(0.9, max(d.x, d.y))), 1.0);
+    vec2 d = abs(fract(place - 0.5) - 0.5) / fwidth(place);
+    color = vec4(mix(c, edge, 1.0 - clamp(min(d.x, d.y) - 0.5, 0.0, 1.0)), 1.0);
 }

@@ -141,9 +141,16 @@ fn lowered(b: &mut InstructionBuilder<'_>, instruction: &SpirvInstruction) -> Op
             Some(())
         }
         (op::OUTER_PRODUCT, &[column, row]) => outer_product(b, id, ty, column, row),
+        // What the functions that look textures up read is a picture.
+        (op::IMAGE_FETCH, [picture, ..]) if is_picture(b, *picture) => None,
         (op::SAMPLED_IMAGE..=op::IMAGE_LAST, _) => images::lowered(b, instruction.opcode, id, ty),
         _ => integers::lowered(b, instruction.opcode, id, ty, operands),
     }
+}
+
+fn is_picture(b: &InstructionBuilder<'_>, value: u32) -> bool {
+    let declared = b.type_of(value).and_then(|ty| b.code.global(ty));
+    declared.is_some_and(|declared| declared.opcode == op::TYPE_IMAGE)
 }
 
 fn outer_product(b: &mut InstructionBuilder<'_>, id: u32, ty: u32, column: u32, row: u32) -> Option<()> {

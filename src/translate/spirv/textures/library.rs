@@ -49,7 +49,14 @@ pub(super) fn splice(
     // naga knows one type without a value.
     let void = |code: &SpirvCode| code.globals.iter().find(|i| i.opcode == op::TYPE_VOID).map(|i| i.operands[0]);
     let (own_set, set, own_void, void) = (library.glsl(), code.glsl(), void(&library)?, void(code)?);
-    let moved = |id: u32| match id {
+    // A picture that is read without a sampler is an image alone.
+    let pictures: HashMap<u32, u32> = library
+        .globals
+        .iter()
+        .filter(|global| global.opcode == op::TYPE_SAMPLED_IMAGE)
+        .map(|global| (global.operands[0], global.operands[1]))
+        .collect();
+    let moved = |id: u32| match pictures.get(&id).copied().unwrap_or(id) {
         id if id == own_set => set,
         id if id == own_void => void,
         id => id + first,
@@ -57,9 +64,9 @@ pub(super) fn splice(
     for head in library.heads.iter().filter(|head| matches!(head.opcode, op::DECORATE | op::MEMBER_DECORATE)) {
         code.heads.push(renumbered(head, &moved));
     }
-    for global in library.globals.iter().filter(|global| global.opcode != op::TYPE_VOID) {
+    for global in library.globals.iter().filter(|i| !matches!(i.opcode, op::TYPE_VOID | op::TYPE_SAMPLED_IMAGE)) {
         // Inputs and outputs are those of its own `main`.
-        if global.opcode == op::VARIABLE && global.operands[2] != storage::UNIFORM {
+        if global.opcode == op::VARIABLE && global.operands[2] != storage::UNIFORM_CONSTANT {
             code.heads.retain(|head| head.operands.first() != Some(&(global.operands[1] + first)));
             continue;
         }
@@ -80,7 +87,11 @@ pub(super) fn splice(
             }
         }
         if is_kept {
-            code.functions.push(SpirvInstruction { line: None, ..renumbered(instruction, &moved) });
+            let mut own = SpirvInstruction { line: None, ..renumbered(instruction, &moved) };
+            if own.opcode == op::IMAGE {
+                own.opcode = op::COPY_OBJECT;
+            }
+            code.functions.push(own);
         }
     }
     Some(functions)
@@ -90,7 +101,7 @@ pub(super) fn splice(
 pub(super) fn renumbered(instruction: &SpirvInstruction, moved: &dyn Fn(u32) -> u32) -> SpirvInstruction {
     let leading = match instruction.opcode {
         op::DECORATE | op::MEMBER_DECORATE | op::TYPE_INT | op::TYPE_FLOAT | op::SELECTION_MERGE => 1,
-        op::CONSTANT | op::TYPE_VECTOR | op::TYPE_MATRIX | op::VARIABLE | op::LOOP_MERGE => 2,
+        op::CONSTANT | op::TYPE_VECTOR | op::TYPE_MATRIX | op::TYPE_IMAGE | op::VARIABLE | op::LOOP_MERGE => 2,
         op::COMPOSITE_EXTRACT => 3,
         op::COMPOSITE_INSERT | op::VECTOR_SHUFFLE => 4,
         _ => usize::MAX,
@@ -99,6 +110,7 @@ pub(super) fn renumbered(instruction: &SpirvInstruction, moved: &dyn Fn(u32) -> 
         op::TYPE_POINTER => at == 1,
         op::FUNCTION => at == 2,
         op::EXT_INST => at == 3,
+        op::IMAGE_FETCH => at == 4,
         _ => at >= leading,
     };
     let operands = instruction.operands.iter().enumerate();

@@ -1,7 +1,8 @@
 #version 450
 // How OpenGL reads textures (OpenGL 4.1 core, sections 3.8.8 to 3.8.18), in plain arithmetic: no driver's choice is left.
-// One buffer holds the number of textures, for each a description of 16 words, and the texels.
-layout(std430, binding = 1) readonly buffer Textures { uint words[]; };
+// One picture of numbers holds, row by row, the number of textures, for each a description of 16 words, and the texels. A driver reads a
+// buffer for the fragments that are seen only, so what neighbours of these read, for a derivative, would be 0.
+layout(binding = 1) uniform usampler2D words;
 layout(location = 0) in vec4 given;
 layout(location = 0) out vec4 result;
 
@@ -9,6 +10,11 @@ const int WIDTH = 0, HEIGHT = 1, DEPTH = 2, FIRST = 3, FLAGS = 4, BORDER = 5;
 const uint MAGNIFY_LINEAR = 1u, MINIFY_LINEAR = 2u, BYTES = 4096u, DEPTHS = 8192u, CLAMPS_REFERENCE = 1048576u;
 // A lookup's mode: how many axes, and bits.
 const int AXES = 3, LAYERS = 4, CUBE = 8, COMPARES = 16, RECTANGLE = 32;
+
+// As wide as `textures.rs` of the renderer has it.
+uint word_at(const uint at) {
+    return texelFetch(words, ivec2(at & 8191u, at >> 13), 0).x;
+}
 
 #ifdef ALIKE
 // All textures have one description, but for where their texels begin.
@@ -19,12 +25,12 @@ uint described(const uint unit, const int at) {
 }
 #else
 uint described(const uint unit, const int at) {
-    return words[1u + unit * 16u + uint(at)];
+    return word_at(1u + unit * 16u + uint(at));
 }
 #endif
 
 bool is_there(const uint unit) {
-    return unit < words[0];
+    return unit < word_at(0u);
 }
 
 vec3 size_of(const uint unit) {
@@ -42,9 +48,9 @@ vec4 texel_at(const uint unit, const ivec3 at) {
     uint flags = described(unit, FLAGS);
     bool is_float = (flags & (BYTES | DEPTHS)) == 0u;
     uint word = first + (is_float ? place * 4u : place);
-    uint number = words[word];
+    uint number = word_at(word);
     if (is_float) {
-        return uintBitsToFloat(uvec4(number, words[word + 1u], words[word + 2u], words[word + 3u]));
+        return uintBitsToFloat(uvec4(number, word_at(word + 1u), word_at(word + 2u), word_at(word + 3u)));
     }
     return (flags & BYTES) != 0u ? unpackUnorm4x8(number) : vec4(uintBitsToFloat(number), 0.0, 0.0, 1.0);
 }
