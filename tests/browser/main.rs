@@ -14,6 +14,7 @@ mod offline;
 mod people;
 mod preview;
 mod several;
+mod sign_in;
 mod staying;
 mod teacher;
 

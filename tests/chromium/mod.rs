@@ -187,6 +187,25 @@ impl Browser {
         self.client.switch_to_window(handle.clone()).await.expect("the tab");
     }
 
+    /// Looks at the other tab, as soon as there is one.
+    pub async fn to_other_tab(&self, this: &WindowHandle) {
+        let start = Instant::now();
+        loop {
+            let handles = self.client.windows().await.expect("tabs");
+            if let Some(other) = handles.into_iter().find(|handle| handle != this) {
+                return self.to_tab(&other).await;
+            }
+            assert!(start.elapsed() < PATIENCE, "no other tab");
+            tokio::time::sleep(LOOK).await;
+        }
+    }
+
+    /// Looks into a frame of the page.
+    pub async fn look_into_frame(&self, css: &str) {
+        let frame = self.client.find(Locator::Css(css)).await.unwrap_or_else(|error| panic!("{css}: {error}"));
+        frame.enter_frame().await.expect("a frame");
+    }
+
     /// Goes back to the page before.
     pub async fn back(&self) {
         self.client.back().await.expect("a page");

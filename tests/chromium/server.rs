@@ -1,7 +1,8 @@
 //! The service that the browser looks at: the program itself, on a free port, with a database of its own.
 
+use std::ffi::{OsStr, OsString};
 use std::io::{BufRead, BufReader};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 
 /// The teacher's token of a test's service.
@@ -23,12 +24,24 @@ impl Server {
 
     /// The same with the homeworks of these folders in place of those that are built in.
     pub fn serving(homeworks: &[PathBuf]) -> Self {
+        let homeworks = homeworks.iter().flat_map(|folder| ["--assignment".as_ref(), folder.as_os_str()]);
+        Self::of(homeworks.map(OsStr::to_owned).collect())
+    }
+
+    /// The same by a configuration, at the address that it says.
+    pub fn configured(configuration: &Path) -> Self {
+        Self::of(vec!["--config".into(), configuration.into()])
+    }
+
+    fn of(arguments: Vec<OsString>) -> Self {
         let folder = tempfile::tempdir().expect("a folder");
+        let has_address = arguments.iter().any(|argument| argument == "--config");
         let mut child = Command::new(env!("CARGO_BIN_EXE_ggrade"))
-            .args(["serve", "--listen", "127.0.0.1:0", "--log", "warn", "--teacher-token", TOKEN])
+            .args(["serve", "--log", "warn", "--teacher-token", TOKEN])
+            .args(if has_address { &[][..] } else { &["--listen", "127.0.0.1:0"] })
             .args(["--uploads-per-student", "600", "--deadline", "10", "--wait", "20", "--database"])
             .arg(folder.path().join("ggrade.db"))
-            .args(homeworks.iter().flat_map(|folder| ["--assignment".as_ref(), folder.as_os_str()]))
+            .args(arguments)
             .env("LC_ALL", "C")
             .stderr(Stdio::piped())
             .spawn()

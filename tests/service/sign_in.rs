@@ -4,7 +4,7 @@ pub mod issuer;
 
 use crate::bench::{Bench, Fake, Reply, config};
 use crate::cluster::Database;
-use crate::lti::platform::key;
+use crate::lti::{self, platform::key};
 use crate::on_both;
 use axum::body::Body;
 use axum::http::{Request, StatusCode, header};

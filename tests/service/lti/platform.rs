@@ -5,7 +5,7 @@ use aws_lc_rs::encoding::AsDer;
 use aws_lc_rs::rsa::{KeyPair, KeySize};
 use axum::extract::{Query, State};
 use axum::http::{HeaderMap, StatusCode, header};
-use axum::response::{IntoResponse, Response};
+use axum::response::{Html, IntoResponse, Response};
 use axum::routing::{get, post};
 use axum::{Form, Json, Router};
 use base64::prelude::{BASE64_STANDARD, Engine};
@@ -40,6 +40,8 @@ pub struct Seen {
     /// Answers scores with this status.
     pub failing: Option<StatusCode>,
     tokens: usize,
+    /// Hints of those who come and of whom was not asked yet: as with Moodle, each is answered once.
+    pub hints: HashMap<String, String>,
 }
 
 /// A new RSA key.
@@ -52,13 +54,21 @@ pub fn key() -> EncodingKey {
 
 impl Platform {
     pub async fn start() -> Self {
+        Self::called("127.0.0.1").await
+    }
+
+    /// The same with another name for its host, which is another site to a browser.
+    pub async fn called(host: &str) -> Self {
         let listener = tokio::net::TcpListener::bind("127.0.0.1:0").await.expect("a port");
-        let issuer = format!("http://{}", listener.local_addr().expect("an address"));
+        let issuer = format!("http://{host}:{}", listener.local_addr().expect("an address").port());
         let platform = Self { issuer, key: Arc::new(key()), seen: Arc::default() };
         let routes = Router::new()
             .route("/openid-configuration", get(configuration))
             .route("/register", post(register))
             .route("/jwks", get(jwks))
+            .route("/course", get(course))
+            .route("/come", get(come))
+            .route("/auth", get(auth))
             .route("/token", post(token))
             .route("/lineitem/scores", post(scores))
             .route("/memberships", get(memberships))
@@ -193,6 +203,52 @@ async fn scores(
     }
     seen.scores.push(score);
     StatusCode::OK.into_response()
+}
+
+/// A course's page, which has the tool in a frame.
+async fn course(Query(query): Query<HashMap<String, String>>) -> Html<String> {
+    let (tool, who, role) = (&query["tool"], &query["who"], &query["role"]);
+    Html(format!(
+        "<!DOCTYPE html><title>Course</title><link rel=icon href='data:,'><iframe src='/come?tool={tool}&who={who}&role={role}' width=900 height=700></iframe>"
+    ))
+}
+
+/// Somebody opens the tool: `who` with `role`.
+async fn come(State(platform): State<Platform>, Query(query): Query<HashMap<String, String>>) -> Html<String> {
+    let hint = ggrade::service::identity::new_id();
+    let (who, role) = (&query["who"], &query["role"]);
+    platform.seen().hints.insert(hint.clone(), format!("{who} {role}"));
+    Html(posted(
+        &format!("{}/lti/login", query["tool"]),
+        &[
+            ("iss", &platform.issuer),
+            ("login_hint", who),
+            ("lti_message_hint", &hint),
+            ("client_id", CLIENT),
+            ("target_link_uri", "x"),
+        ],
+    ))
+}
+
+/// Says who it is, to whom it knows.
+async fn auth(State(platform): State<Platform>, Query(query): Query<HashMap<String, String>>) -> Html<String> {
+    assert_eq!((query["client_id"].as_str(), query["response_mode"].as_str()), (CLIENT, "form_post"));
+    let known = platform.seen().hints.remove(&query["lti_message_hint"]);
+    let Some((who, role)) = known.as_deref().and_then(|known| known.split_once(' ')) else {
+        let failed = [("error", "invalid_request"), ("state", &query["state"])];
+        return Html(posted(&query["redirect_uri"], &failed));
+    };
+    let token = platform.sign(&platform.claims(&query["nonce"], who, role));
+    Html(posted(&query["redirect_uri"], &[("id_token", &token), ("state", &query["state"])]))
+}
+
+/// A page that sends a form as soon as it is there.
+fn posted(address: &str, fields: &[(&str, &str)]) -> String {
+    let field = |(name, value): &(&str, &str)| format!("<input type=hidden name='{name}' value='{value}'>");
+    let fields: String = fields.iter().map(field).collect();
+    format!(
+        "<!DOCTYPE html><link rel=icon href='data:,'><form method=post action='{address}'>{fields}</form><script>document.forms[0].submit()</script>"
+    )
 }
 
 /// Two pages of people.

@@ -1,10 +1,10 @@
 //! An OpenID issuer, written from the specifications: OpenID Connect Core 1.0 (code flow), Discovery 1.0, PKCE (RFC 7636). It has a
 //! server and keys of its own.
 
-use crate::lti::platform::key;
-use axum::extract::State;
+use super::lti::platform::key;
+use axum::extract::{Query, State};
 use axum::http::{HeaderMap, StatusCode, header};
-use axum::response::{IntoResponse, Response};
+use axum::response::{Html, IntoResponse, Response};
 use axum::routing::{get, post};
 use axum::{Form, Json, Router};
 use base64::prelude::{BASE64_STANDARD, BASE64_URL_SAFE_NO_PAD, Engine};
@@ -17,6 +17,8 @@ use std::sync::{Arc, Mutex};
 
 pub const CLIENT: &str = "ggrade of the course";
 pub const SECRET: &str = "a secret: with a colon & more";
+/// Whom it knows.
+const PEOPLE: [&str; 3] = ["s1", "s2", "prof"];
 const KEY: &str = "issuer-key";
 const CURVE: &str = "issuer-curve";
 
@@ -24,6 +26,8 @@ const CURVE: &str = "issuer-curve";
 #[derive(Clone)]
 pub struct Issuer {
     pub address: String,
+    /// Where it sends people back to.
+    back: String,
     key: Arc<EncodingKey>,
     curve: Arc<EncodingKey>,
     seen: Arc<Mutex<Seen>>,
@@ -61,12 +65,19 @@ fn published(key: &EncodingKey, algorithm: Algorithm, id: &str) -> Jwk {
 
 impl Issuer {
     pub async fn start() -> Self {
+        Self::sending_to("http://ggrade.example/signed-in").await
+    }
+
+    /// The same for a service at another address.
+    pub async fn sending_to(back: &str) -> Self {
         let listener = tokio::net::TcpListener::bind("127.0.0.1:0").await.expect("a port");
         let address = format!("http://{}/realm", listener.local_addr().expect("an address"));
-        let issuer = Self { address, key: Arc::new(key()), curve: Arc::new(curve()), seen: Arc::default() };
+        let back = back.to_owned();
+        let issuer = Self { address, back, key: Arc::new(key()), curve: Arc::new(curve()), seen: Arc::default() };
         let routes = Router::new()
             .route("/realm/.well-known/openid-configuration", get(configuration))
             .route("/realm/jwks", get(jwks))
+            .route("/realm/authorize", get(authorize))
             .route("/realm/token", post(token))
             .with_state(issuer.clone());
         tokio::spawn(async move { axum::serve(listener, routes).await });
@@ -107,9 +118,7 @@ impl Issuer {
 
     /// Signs somebody in who was sent with this question: the code for this id token.
     pub fn code(&self, asked: &HashMap<String, String>, token: &str) -> String {
-        for (name, value) in
-            [("response_type", "code"), ("client_id", CLIENT), ("redirect_uri", "http://ggrade.example/signed-in")]
-        {
+        for (name, value) in [("response_type", "code"), ("client_id", CLIENT), ("redirect_uri", &self.back)] {
             assert_eq!(asked[name], value);
         }
         assert_eq!(asked["code_challenge_method"], "S256");
@@ -131,6 +140,19 @@ async fn configuration(State(issuer): State<Issuer>) -> Json<Value> {
         "token_endpoint": at("token"), "jwks_uri": at("jwks"), "token_endpoint_auth_methods_supported": methods,
         "response_types_supported": ["code"], "id_token_signing_alg_values_supported": if seen.signs_by_curve { json!(["RS256", "ES256", "HS256", "none"]) } else { json!(["RS256"]) },
     }))
+}
+
+/// The page on which people say that it is them: a link for each.
+async fn authorize(State(issuer): State<Issuer>, Query(asked): Query<HashMap<String, String>>) -> Html<String> {
+    let link = |who: &&str| {
+        let token = issuer.sign(&issuer.claims(&asked, &format!("{who}@example.ac.jp")));
+        let code = issuer.code(&asked, &token);
+        format!("<p><a id={who} href='{}?code={code}&state={}'>{who}</a></p>", issuer.back, asked["state"])
+    };
+    Html(format!(
+        "<!DOCTYPE html><title>Who are you?</title><link rel=icon href='data:,'>{}",
+        PEOPLE.iter().map(link).collect::<String>()
+    ))
 }
 
 async fn jwks(State(issuer): State<Issuer>) -> Json<JwkSet> {
@@ -160,7 +182,7 @@ async fn token(
         return refused("invalid_client");
     }
     assert_eq!(form["grant_type"], "authorization_code");
-    assert_eq!(form["redirect_uri"], "http://ggrade.example/signed-in");
+    assert_eq!(form["redirect_uri"], issuer.back);
     // A code is taken once.
     let Some((challenge, token)) = seen.codes.remove(&form["code"]) else { return refused("invalid_grant") };
     if BASE64_URL_SAFE_NO_PAD.encode(Sha256::digest(&form["code_verifier"])) != challenge {
