@@ -45,6 +45,18 @@ pub fn address(service: &Service) -> String {
     format!("{}{}", host.trim_end_matches('/'), service.root())
 }
 
+/// The same, where it is known by which address others reach it.
+pub fn public_address(service: &Service) -> Result<String, Problem> {
+    if service.config.public_url.is_none() {
+        return Err(Problem::unprocessable(
+            "The service does not know by which address platforms reach it. Start it with --public-url (public_url in the \
+             configuration) first.",
+            "このサービスの公開アドレスが設定されていません。先に --public-url（設定ファイルでは public_url）を指定して起動してください。",
+        ));
+    }
+    Ok(address(service))
+}
+
 /// A refusal of what a platform sent, which says what is wrong with it.
 fn refused(en: impl Into<String>, ja: impl Into<String>) -> Problem {
     Problem::new(axum::http::StatusCode::FORBIDDEN, "lti", en, ja)

@@ -437,6 +437,7 @@ async fn addresses_of_a_class_lead_on_where_it_moved(database: Database) {
     for homework in ["ggsample06", "waves"] {
         assert!(asked.text().contains(&format!("href=\"/a/{homework}/teacher/settings?lang=en\"")), "{}", asked.text());
     }
+    assert!(asked.text().contains("href=\"/teacher/folders\""), "the whole course is reached from here");
     let address = format!("/teacher/batches/{}", batch.id());
     assert_eq!(get(&bench, &address).await.header("location"), format!("/a/ggsample06{address}"));
     let own = request(&bench, ("GET", "/teacher/insights"), OF_WAVES, Vec::new()).await;

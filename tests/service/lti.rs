@@ -25,6 +25,7 @@ on_both!(
     every_forged_launch_is_refused,
     nobody_comes_in_from_a_course_that_nobody_connected,
     a_platforms_course_leads_to_its_course_here,
+    no_address_is_told_by_which_nobody_reaches_the_service,
 );
 
 const WRONG: &str = "wrong/specular-half-unnormalized--average.vert";
@@ -563,4 +564,16 @@ async fn inside_a_platforms_page_cookies_are_its_own_and_nobody_else_shows_pages
     assert!(policy.contains(&format!("frame-ancestors 'self' {}", platform.issuer)), "{policy}");
     assert!(bench.get("/").await.header("content-security-policy").contains("frame-ancestors 'none'"));
     bench.finish().await;
+}
+
+async fn no_address_is_told_by_which_nobody_reaches_the_service(database: Database) {
+    let bench = Bench::with(database, config(), crate::pool(), Clock::system()).await;
+    let page = get(&bench, "/teacher/platforms?lang=en").await;
+    assert!(page.text().contains("--public-url") && !page.text().contains("/lti/login"), "{}", page.text());
+    let refused = form(&bench, "/teacher/platforms", "wish=link").await;
+    assert_eq!(refused.status, StatusCode::UNPROCESSABLE_ENTITY);
+    assert!(!refused.text().contains("<details open>"), "nothing was typed: {}", refused.text());
+    let plain = "wish=add&issuer=x&client_id=x&auth_url=http%3A%2F%2Fmoodle.example&token_url=x&keys_url=x";
+    let refused = form(&bench, "/teacher/platforms?lang=ja", plain).await;
+    assert_eq!(refused.all("#wrong"), ["http://moodle.example は https のアドレスではありません。"]);
 }

@@ -41,7 +41,7 @@ pub(super) async fn offer(
     let wanted = claims.deep_linking.clone().ok_or_else(|| {
         refused("The platform does not say where the choice goes.", "選択結果の送信先が示されていません。")
     })?;
-    let action = checked(&wanted.deep_link_return_url).map_err(|failure| refused(failure.clone(), failure))?;
+    let action = checked(&wanted.deep_link_return_url).map_err(|why| refused(why.en, why.ja))?;
     let (mut titles, mut items) = (Vec::new(), Vec::new());
     for state in service.homeworks() {
         let title = frame.language.of(&state.assignment.title).to_owned();

@@ -5,6 +5,7 @@ use super::super::clients::Clients;
 use super::super::identity::new_id;
 use super::super::store::Platform;
 use super::keys::{issued_at, sign};
+use crate::language::Text;
 use jsonwebtoken::jwk::{Jwk, JwkSet};
 use percent_encoding::{NON_ALPHANUMERIC, utf8_percent_encode};
 use reqwest::{Method, Response, StatusCode, Url};
@@ -43,19 +44,20 @@ pub struct Connections {
 pub type Failure = String;
 
 /// An address of a platform's: https, or this very machine.
-pub(in crate::service) fn checked(address: &str) -> Result<Url, Failure> {
-    let url = Url::parse(address).map_err(|error| format!("{address}: {error}"))?;
-    let is_here = matches!(url.host_str(), Some("localhost" | "127.0.0.1" | "[::1]"));
-    if url.scheme() == "https" || (url.scheme() == "http" && is_here) {
-        Ok(url)
-    } else {
-        Err(format!("{address} is no https address"))
-    }
+pub(in crate::service) fn checked(address: &str) -> Result<Url, Text> {
+    let is_here = |url: &Url| matches!(url.host_str(), Some("localhost" | "127.0.0.1" | "[::1]"));
+    let url = Url::parse(address).ok().filter(|url| match url.scheme() {
+        "https" => true,
+        scheme => scheme == "http" && is_here(url),
+    });
+    url.ok_or_else(|| {
+        Text::new(format!("{address} is no https address"), format!("{address} は https のアドレスではありません。"))
+    })
 }
 
 impl Connections {
     fn request(&self, method: Method, address: &str) -> Result<reqwest::RequestBuilder, Failure> {
-        let url = checked(address)?;
+        let url = checked(address).map_err(|why| why.en)?;
         let client = self.clients.of(&url).map_err(|failure| format!("{address}: {failure}"))?;
         Ok(client.request(method, url))
     }

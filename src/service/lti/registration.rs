@@ -6,7 +6,7 @@ use super::super::errors::Problem;
 use super::super::identity::{new_id, new_token, token_hash};
 use super::super::store::Platform;
 use super::platform::checked;
-use super::{address, memberships, refused, scores};
+use super::{address, memberships, public_address, refused, scores};
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 use std::time::Duration;
@@ -37,18 +37,12 @@ pub struct RegistrationQuery {
 
 /// A new link. It works once, for a day. Without a public address a platform would not find this service.
 pub async fn new_link(service: &Service) -> Result<String, Problem> {
-    if service.config.public_url.is_none() {
-        return Err(Problem::unprocessable(
-            "The service does not know by which address platforms reach it. Start it with --public-url (public_url in the \
-             configuration), and make the link then.",
-            "このサービスの公開アドレスが設定されていません。--public-url（設定ファイルでは public_url）を指定して起動してから、リンクを作成してください。",
-        ));
-    }
+    let address = public_address(service)?;
     let secret = new_token()[..32].to_owned();
     let kept = Kept { hash: token_hash(&secret), until: service.clock.now() + millis(HOLDS) };
     let json = serde_json::to_string(&kept).map_err(|error| Problem::internal(&error))?;
     service.store.set_setting(SETTING, &json).await?;
-    Ok(format!("{}/lti/register/{secret}", address(service)))
+    Ok(format!("{address}/lti/register/{secret}"))
 }
 
 /// Registers this service with the platform that opened the link, and the platform here.
@@ -104,7 +98,7 @@ pub async fn keep(service: &Service, platform: Platform, deployment: Option<&str
     let has_name = !platform.name.trim().is_empty();
     let platform = if has_name { platform } else { Platform { name: platform.issuer.clone(), ..platform } };
     for address in [&platform.auth_url, &platform.token_url, &platform.keys_url] {
-        checked(address).map_err(|failure| Problem::unprocessable(failure.clone(), failure))?;
+        checked(address).map_err(|why| Problem::unprocessable(why.en, why.ja))?;
     }
     service.store.add_platform(&platform, service.clock.now()).await?;
     let is_it = |found: &Platform| found.issuer == platform.issuer && found.client_id == platform.client_id;

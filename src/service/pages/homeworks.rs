@@ -3,6 +3,7 @@
 
 use super::frame::{PageFrame, SignInLink};
 use super::standing::{Fact, StudentStanding};
+use super::teacher::Tab;
 use super::{internal, shown, student};
 use crate::language::Language;
 use crate::report::html::rich::MessagePiece;
@@ -57,8 +58,17 @@ struct HomeworksPage {
     /// Student number.
     who: Option<String>,
     sign_ins: Vec<SignInLink>,
-    /// The token of the teacher's forms; none on the page for students.
-    csrf: Option<String>,
+}
+
+/// The same for who teaches.
+#[derive(Template)]
+#[template(path = "service/pages/templates/classes.html")]
+struct ClassesPage {
+    frame: PageFrame,
+    place: Tab,
+    csrf: String,
+    heading: &'static str,
+    homeworks: Vec<HomeworkCard>,
 }
 
 /// A homework of the list.
@@ -103,7 +113,7 @@ async fn list(Shared(service): Shared<Service>, frame: PageFrame, visitor: Visit
     let heading = frame.say("Homework", "課題の一覧");
     let who = visitor.identity.student().map(|student| student.number.clone());
     let sign_ins = SignInLink::all(&service, None);
-    shown(HomeworksPage { frame, heading, homeworks, who, sign_ins, csrf: None }.render())
+    shown(HomeworksPage { frame, heading, homeworks, who, sign_ins }.render())
 }
 
 /// Dates, attempts, and the best of what this browser has handed in.
@@ -155,8 +165,7 @@ async fn of_each(
         let facts = vec![Fact::plain("", text)];
         homeworks.push(HomeworkCard::of(&state, &frame, format!("{}/teacher{rest}", state.base()), facts)?);
     }
-    let csrf = Some(teacher.csrf(service));
-    shown(HomeworksPage { frame, heading, homeworks, who: None, sign_ins: Vec::new(), csrf }.render())
+    shown(ClassesPage { frame, place: Tab::Classes, csrf: teacher.csrf(service), heading, homeworks }.render())
 }
 
 /// The address of a page of the class while there was one homework: now it is a page of each.

@@ -125,6 +125,8 @@ pub(super) enum Tab {
     Batches,
     /// Settings.
     Settings,
+    /// The classes of all homeworks.
+    Classes,
     /// Everybody with all homeworks.
     Gradebook,
     /// Which homeworks the course has.
@@ -147,7 +149,7 @@ pub(super) enum Tab {
 
 impl Tab {
     /// Whether it is a page of the whole course.
-    fn is_of_course(self) -> bool {
+    pub(super) fn is_of_course(self) -> bool {
         !matches!(
             self,
             Self::Class
@@ -161,13 +163,14 @@ impl Tab {
     }
 
     /// What a page of the whole course is called, for the closed menu that has it.
-    fn in_course(self, frame: &PageFrame) -> Option<&'static str> {
+    pub(super) fn in_course(self, frame: &PageFrame) -> Option<&'static str> {
         self.is_of_course().then(|| self.name(frame))
     }
 
     /// What the navigation calls a page that stands in a menu.
-    fn name(self, frame: &PageFrame) -> &'static str {
+    pub(super) fn name(self, frame: &PageFrame) -> &'static str {
         match self {
+            Self::Classes => frame.say("All classes", "クラスの一覧"),
             Self::Gradebook => frame.say("Gradebook", "成績一覧"),
             Self::Plan => frame.say("Plan", "構成"),
             Self::Folders => frame.say("Homeworks", "課題"),

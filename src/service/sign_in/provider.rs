@@ -100,7 +100,7 @@ impl Provider {
             return Err(failed(format!("{address} is of the issuer {}", found.issuer)));
         }
         for address in [&found.authorization_endpoint, &found.token_endpoint, &found.jwks_uri] {
-            lti::checked(address).map_err(failed)?;
+            lti::checked(address).map_err(|why| failed(why.en))?;
         }
         Ok(found)
     }

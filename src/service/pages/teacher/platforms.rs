@@ -31,8 +31,8 @@ struct PlatformsPage {
     notice: Option<String>,
     /// The courses here with which a platform's course can be connected: id and title.
     here: Vec<(String, String)>,
-    /// The address of this service.
-    own: String,
+    /// The address of this service, or why it is not known.
+    own: Result<String, String>,
     typed: PlatformForm,
 }
 
@@ -118,12 +118,16 @@ async fn view(
             problem: said.problem,
             notice: said.notice,
             here,
-            own: lti::address(service),
+            own: lti::public_address(service).map_err(|problem| plainly(&problem, &frame)),
             typed: said.typed,
             frame,
         }
         .render(),
     )
+}
+
+fn plainly(problem: &Problem, frame: &PageFrame) -> String {
+    problem.detail.get(frame.language).replace('`', "")
 }
 
 /// `GET /teacher/platforms`.
@@ -150,7 +154,7 @@ pub(in crate::service::pages) async fn change(
         Ok(Some(said)) => Ok(detail.on(view(&service, frame, &teacher, said).await?)),
         Ok(None) => Ok(detail.on(Redirect::to("/teacher/platforms").into_response())),
         Err(problem) if problem.status.is_client_error() && problem.kind != "role" => {
-            let said = Some(problem.detail.get(frame.language).replace('`', ""));
+            let said = Some(plainly(&problem, &frame));
             let page = view(
                 &service,
                 frame,
