@@ -1,5 +1,7 @@
 //! Palettes of at most 256 colours: those that there are, or, where there are more, the ones that stand for them best.
 
+use png::BitDepth;
+use std::borrow::Cow;
 use std::ops::Range;
 
 pub(super) type Rgb = [u8; 3];
@@ -52,6 +54,42 @@ impl Palette {
         self.last = Some((colour, index));
         Some(index)
     }
+}
+
+/// The bits that a place among so many colours needs.
+pub(super) fn depth(colours: usize) -> BitDepth {
+    match colours {
+        0..=2 => BitDepth::One,
+        3..=4 => BitDepth::Two,
+        5..=16 => BitDepth::Four,
+        _ => BitDepth::Eight,
+    }
+}
+
+/// Places in a palette, or whole bytes, as a PNG of this depth holds them: each row begins with a new byte.
+pub(super) fn packed(places: &[u8], width: usize, depth: BitDepth) -> Cow<'_, [u8]> {
+    match depth {
+        BitDepth::One => pack::<8>(places, width).into(),
+        BitDepth::Two => pack::<4>(places, width).into(),
+        BitDepth::Four => pack::<2>(places, width).into(),
+        BitDepth::Eight | BitDepth::Sixteen => places.into(),
+    }
+}
+
+/// So many places in a byte, the first in its highest bits.
+fn pack<const IN_A_BYTE: usize>(places: &[u8], width: usize) -> Vec<u8> {
+    let bits = 8 / IN_A_BYTE;
+    let byte = |places: &[u8]| {
+        let shifted = places.iter().enumerate().map(|(i, place)| place << (8 - bits * (i + 1)));
+        shifted.fold(0, |byte, place| byte | place)
+    };
+    let mut bytes = Vec::with_capacity(places.len().div_ceil(IN_A_BYTE));
+    for row in places.chunks_exact(width) {
+        let (whole, rest) = row.as_chunks::<IN_A_BYTE>();
+        bytes.extend(whole.iter().map(|places| byte(places)));
+        bytes.extend((!rest.is_empty()).then(|| byte(rest)));
+    }
+    bytes
 }
 
 /// Colours that are told apart from others, and how many pixels have them.
@@ -149,6 +187,15 @@ mod tests {
             let off = pixel.iter().zip(colours[usize::from(index)]).map(|(a, b)| a.abs_diff(b)).max();
             assert!(off <= Some(2), "{pixel:?} became {:?}", colours[usize::from(index)]);
         }
+    }
+
+    #[test]
+    fn places_are_packed_row_by_row_from_the_highest_bits() {
+        // Two rows of five pixels of four colours: 00 01 10 11 | 01…, 11 10 01 00 | 10…
+        let places = [0, 1, 2, 3, 1, 3, 2, 1, 0, 2];
+        assert_eq!(depth(4), BitDepth::Two);
+        assert_eq!(packed(&places, 5, depth(4)), [0b0001_1011, 0b0100_0000, 0b1110_0100, 0b1000_0000].as_slice());
+        assert_eq!(packed(&places, 5, depth(17)), places.as_slice());
     }
 
     #[test]

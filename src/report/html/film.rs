@@ -5,7 +5,7 @@ use super::cache::PictureCache;
 use super::sheet::{FilmStep, SheetGrid};
 use super::shots::Shots;
 use crate::fault::Fault;
-use crate::report::encode::{Raster, encode_small, mismatched};
+use crate::report::encode::{Canvas, Raster, encode_small, mismatched};
 use crate::report::pictures::fit;
 use crate::report::{Picture, Pictures, TermPictures};
 use askama::Template;
@@ -24,11 +24,14 @@ pub enum FilmUse {
 
 /// Bytes of the two sheets of a film that are served. A shader that draws noise would take 15 MB, and is shown at a lower resolution.
 const BUDGET_OF_SERVED: usize = 400_000;
-/// Bytes of the three sheets of a film as they stand in a page, of which a page has at most 250 kB. Those of ggsample06 take 150 to 190
+/// Bytes of the three sheets of a film as they stand in a page, of which a page has at most 250 kB. Those of ggsample06 take 130 to 160
 /// kB. Scenes that are lit pixel by pixel would take 300 to 650, and noise 20 MB: they are shown at a lower resolution instead.
-const BUDGET: usize = 220_000;
+const BUDGET: usize = 175_000;
 /// The most of it that the right pictures take. What is handed in draws about the same, and where it differs is drawn in few colours.
-const BUDGET_OF_EXPECTED: usize = 100_000;
+const BUDGET_OF_EXPECTED: usize = 80_000;
+/// Bytes that the picture of a single term takes in its own resolution. It is shown half as wide as a sheet's frame: a larger one has half
+/// the pixels across and down.
+const BUDGET_OF_TERM: usize = 6_000;
 /// Factors by which the pictures are reduced in turn until they fit.
 const REDUCTIONS: [usize; 4] = [1, 2, 4, 8];
 
@@ -91,11 +94,10 @@ impl Film {
     }
 
     fn fits(&self, expected: &Arc<[Picture]>, shown: FilmUse) -> Result<bool, Fault> {
-        let embedded = |png: &[u8]| png.len().div_ceil(3) * 4;
         Ok(match shown {
             FilmUse::Embedded => {
                 let expected = expected_address(expected, self.factor)?.len();
-                embedded(&self.yours) + embedded(&self.difference) + expected <= BUDGET
+                embedded_length(&self.yours) + embedded_length(&self.difference) + expected <= BUDGET
             }
             FilmUse::Served => self.yours.len() + self.difference.len() <= BUDGET_OF_SERVED,
         })
@@ -104,7 +106,11 @@ impl Film {
     /// Where a page that holds all pictures itself finds them. `still`: the PNG of a single frame.
     pub fn embedded(&self, pictures: &Pictures, still: Option<Vec<u8>>) -> Result<PictureAddresses, Fault> {
         static TERMS: PictureCache<[TermPictures], Arc<[TermFilm]>> = PictureCache::new();
-        let address = |picture: &Picture| Ok::<_, Fault>(inline(&encode_small(&Raster::opaque(picture)?)?));
+        let address = |picture: &Picture| {
+            let whole = Raster::opaque(picture)?;
+            let png = encode_small(&whole)?;
+            Ok::<_, Fault>(inline(&if png.len() > BUDGET_OF_TERM { encode_small(&whole.reduced(2))? } else { png }))
+        };
         let term = |term: &TermPictures| {
             let expected = address(&term.expected)?;
             let own = |yours: &Picture| if *yours == term.expected { Ok(expected.clone()) } else { address(yours) };
@@ -124,29 +130,37 @@ impl Film {
 
 /// The sheet of what a right answer draws in every pixel, the same for every film of an assignment, as a PNG.
 pub fn expected_sheet(expected: &[Picture]) -> Result<Vec<u8>, Fault> {
-    reduced_sheet(expected, 1)
+    reduced_sheet(expected, 1)?.encode_hardest()
 }
 
-fn reduced_sheet(expected: &[Picture], factor: usize) -> Result<Vec<u8>, Fault> {
+fn reduced_sheet(expected: &[Picture], factor: usize) -> Result<Canvas, Fault> {
     fit(expected, expected)?;
     let shots = Shots::of(expected).ok_or_else(mismatched)?;
-    shots.sheet(SheetGrid::of(expected.len()), factor).encode()
+    Ok(shots.sheet(SheetGrid::of(expected.len()), factor))
 }
 
 /// It inside a page.
 fn expected_address(expected: &Arc<[Picture]>, factor: usize) -> Result<Arc<str>, Fault> {
     static MADE: PictureCache<[Picture], Arc<str>> = PictureCache::new();
-    MADE.get(expected, factor, || Ok(inline(&reduced_sheet(expected, factor)?).into()))
+    MADE.get(expected, factor, || Ok(inline(&reduced_sheet(expected, factor)?.encode_hardest()?).into()))
 }
 
 /// The least reduction at which the right pictures take their share of a page.
 fn finest(expected: &Arc<[Picture]>) -> Result<usize, Fault> {
-    for factor in REDUCTIONS {
-        if expected_address(expected, factor)?.len() <= BUDGET_OF_EXPECTED {
-            return Ok(factor);
+    static FOUND: PictureCache<[Picture], usize> = PictureCache::new();
+    FOUND.get(expected, 0, || {
+        for factor in REDUCTIONS {
+            if embedded_length(&reduced_sheet(expected, factor)?.encode()?) <= BUDGET_OF_EXPECTED {
+                return Ok(factor);
+            }
         }
-    }
-    Ok(REDUCTIONS[REDUCTIONS.len() - 1])
+        Ok(REDUCTIONS[REDUCTIONS.len() - 1])
+    })
+}
+
+/// Bytes that a PNG takes in a page.
+fn embedded_length(png: &[u8]) -> usize {
+    png.len().div_ceil(3) * 4
 }
 
 fn inline(png: &[u8]) -> String {

@@ -8,14 +8,14 @@ use crate::language::Language;
 use crate::report::encode::{Raster, encode};
 use crate::report::labels::Labels;
 use crate::report::text::number;
-use crate::report::{OwnValues, Picture, Pictures, Report, RubricLine, ValueAt, ValueLine, ValuePlace};
+use crate::report::{OwnValues, Pictures, Report, RubricLine, ValueAt, ValueLine, ValuePlace};
 use reference::Assignment;
 
 /// A picture inside of a page takes at most so many bytes, before it is written as text. Where it would take more, it gets smaller.
 const MOST_BYTES: usize = 4_000;
 
 /// Widths of that picture, in pixels, which are tried in turn: each in its own colours, then in steps of 16. It only shows where a place is.
-const WIDTHS: [u32; 4] = [240, 160, 120, 80];
+const WIDTHS: [usize; 4] = [240, 160, 120, 80];
 
 /// The columns of a matrix, by the count of its numbers.
 const MATRICES: [(usize, usize); 2] = [(9, 3), (16, 4)];
@@ -182,8 +182,9 @@ impl Still {
 pub(super) fn still(report: &Report, pictures: &Pictures) -> Result<Option<Vec<u8>>, Fault> {
     let place = report.own_values.iter().flat_map(|values| &values.places).find_map(|place| place.frame);
     let Some(picture) = place.and_then(|frame| pictures.yours.get(frame as usize)) else { return Ok(None) };
+    let whole = Raster::opaque(picture)?;
     for width in WIDTHS {
-        let mut small = reduced(picture, width)?;
+        let mut small = whole.reduced(whole.width.div_ceil(width).max(1));
         let png = encode(&small)?;
         if png.len() <= MOST_BYTES {
             return Ok(Some(png));
@@ -195,15 +196,6 @@ pub(super) fn still(report: &Report, pictures: &Pictures) -> Result<Option<Vec<u
         }
     }
     Ok(None)
-}
-
-/// Every so manieth pixel of every so manieth row.
-fn reduced(picture: &Picture, width: u32) -> Result<Raster, Fault> {
-    let whole = Raster::opaque(picture)?;
-    let factor = whole.width.div_ceil(width as usize).max(1);
-    let rows: Vec<_> = whole.rows().step_by(factor).collect();
-    let pixels = rows.iter().flat_map(|row| row.iter().step_by(factor).copied());
-    Ok(Raster { width: whole.width.div_ceil(factor), height: rows.len(), pixels: pixels.collect() })
 }
 
 impl LineView {
