@@ -27,6 +27,8 @@ pub(crate) struct OperatorText {
     pub look: Text,
     /// What is said in place of that where the bound is 0.
     pub bounded: Option<OperatorTexts>,
+    /// What is said in place of that of a program of which nothing is told apart.
+    pub whole: Option<OperatorTexts>,
 }
 
 /// Two of the texts.

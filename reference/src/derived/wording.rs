@@ -70,8 +70,9 @@ fn alternative(
     is_bound_by_zero: bool,
 ) -> Alternative {
     let bounded = said.bounded.as_ref().filter(|_| is_bound_by_zero);
-    let equation = bounded.map_or(&said.equation, |bounded| &bounded.equation);
-    let look = bounded.map_or(&said.look, |bounded| &bounded.look);
+    let special = bounded.or(said.whole.as_ref().filter(|_| quantity.is_everything));
+    let equation = special.map_or(&said.equation, |special| &special.equation);
+    let look = special.map_or(&said.look, |special| &special.look);
     Alternative {
         when: vec![Condition::Forms(vec![form])],
         seen: None,
