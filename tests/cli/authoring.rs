@@ -144,6 +144,15 @@ fn a_cube_map_and_fresnel_in_both_stages_become_a_homework() {
 }
 
 #[test]
+fn reflections_in_a_room_become_a_homework() {
+    let written = Written::from(&["room.vert", "room.frag"]);
+    written.tells("pow(1.0 - max(dot(n, v), 0.0), 5.0)", "pow(1.0 - max(dot(n, v), 0.0), 4.0)");
+    // A change that another one writes over is no mistake of the student's.
+    let constant = written.graded(&[("mix(vec3(0.04), baseColor, metalness)", "vec3(0.04)")]);
+    assert_eq!(constant["mistakes"], serde_json::json!(["derived-other-value-result"]), "{constant:#}");
+}
+
+#[test]
 fn a_dissolve_by_noise_becomes_a_homework() {
     let written = Written::from(&["moth.frag"]);
     written.tells("n < threshold", "n < 0.45");

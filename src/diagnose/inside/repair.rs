@@ -44,6 +44,14 @@ pub(in crate::diagnose) struct Repaired {
 }
 
 impl Repaired {
+    /// Whether nothing is left of what an earlier change put there.
+    fn undoes(&self, earlier: &Self) -> bool {
+        let [before, after] = &self.texts;
+        let added = &earlier.texts[1];
+        let is_same_place = self.located.stage == earlier.located.stage && self.located.line == earlier.located.line;
+        is_same_place && !added.is_empty() && before.contains(added.as_str()) && !after.contains(added.as_str())
+    }
+
     /// What a teacher is shown of it.
     pub fn shown(&self, evidence: &Evidence<'_>) -> report::Repair {
         let [written, right] = self.texts.clone();
@@ -89,7 +97,11 @@ impl Search<'_, '_> {
         let mut attempt = first;
         let mut found = Vec::new();
         for step in steps {
-            let Some(repaired) = self.repaired(&attempt, &step) else { return Vec::new() };
+            let Some(mut repaired) = self.repaired(&attempt, &step) else { return Vec::new() };
+            // What is written anew a second time was not made right by the first.
+            if let Some(before) = found.pop_if(|before: &mut Repaired| repaired.undoes(before)) {
+                repaired.texts[0] = repaired.texts[0].replacen(&before.texts[1], &before.texts[0], 1);
+            }
             found.push(repaired);
             let Some(next) = self.after(&attempt, &step) else { return Vec::new() };
             attempt = next;
