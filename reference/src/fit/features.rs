@@ -36,6 +36,10 @@ pub type ProbeChannel = (usize, usize);
 pub struct Footprints {
     /// For each line of the rubric and each probe the channels; none for a line without a feature.
     shows: Vec<Option<Vec<[bool; 3]>>>,
+    /// The line of the rubric that judges what no feature shows, where there is one.
+    rest: Option<usize>,
+    /// For each probe the channels that are not cut off.
+    tells: Vec<[bool; 3]>,
 }
 
 /// A line of the rubric, judged by what shows it beside nothing that may be wrong.
@@ -75,7 +79,10 @@ impl Footprints {
             pairs.map(|((colour, _), probe)| [0, 1, 2].map(|channel| differs(channel, probe, *colour))).collect()
         };
         let lines = 0..alternatives.assignment.features.len();
-        Self { shows: lines.map(|line| alternatives.without(line).map(differs)).collect() }
+        let shows: Vec<_> = lines.map(|line| alternatives.without(line).map(differs)).collect();
+        let rest = rest_of(alternatives.assignment, &shows);
+        let tells = alternatives.probes.iter().map(|probe| probe.colour.to_array().map(tells)).collect();
+        Self { shows, rest, tells }
     }
 
     /// The lines that have a feature, in the rubric's order.
@@ -87,8 +94,7 @@ impl Footprints {
     /// only there costs no points.
     pub fn unjudged(&self, alternatives: &Alternatives<'_>) -> Vec<usize> {
         let assignment = alternatives.assignment;
-        let is_rest = |line: usize| self.shows[line].is_none() && !assignment.judges_position(&assignment.rubric[line]);
-        if self.lines().next().is_none() || (0..self.shows.len()).any(is_rest) {
+        if self.lines().next().is_none() || !without_feature(assignment, &self.shows).is_empty() {
             return Vec::new();
         }
         let is_shown = |place: usize| self.shows.iter().flatten().any(|shows| shows[place].contains(&true));
@@ -128,11 +134,43 @@ impl Footprints {
             let open = self.lines().filter(|line| !judged.iter().any(|known| known.line == *line));
             let cells = open.map(|line| (line, self.beside(line, &is_right)));
             let Some((line, cells)) = cells.into_iter().find(|(_, cells)| probes_of(cells).len() >= FEWEST) else {
+                judged.extend(self.judged_rest(&judged, agrees));
                 return judged;
             };
             judged.push(JudgedLine { line, is_right: cells.iter().all(|cell| agrees(*cell)), cells });
         }
     }
+
+    /// The line of the rest, judged where no feature shows but such as are right: what is wrong elsewhere, another line may have
+    /// been charged for.
+    fn judged_rest(&self, judged: &[JudgedLine], agrees: &dyn Fn(ProbeChannel) -> bool) -> Option<JudgedLine> {
+        let line = self.rest?;
+        let is_right = |line: usize| judged.iter().any(|known| known.line == line && known.is_right);
+        let doubtful: Vec<&Vec<[bool; 3]>> =
+            self.lines().filter(|line| !is_right(*line)).filter_map(|line| self.shows[line].as_ref()).collect();
+        // What is cut off may be wrong by any feature.
+        let is_own = |(probe, channel): &ProbeChannel| {
+            doubtful.is_empty() || self.tells[*probe][*channel] && !doubtful.iter().any(|shows| shows[*probe][*channel])
+        };
+        let all = (0..self.tells.len()).flat_map(|probe| (0..3).map(move |channel| (probe, channel)));
+        let cells: Vec<ProbeChannel> = all.filter(is_own).collect();
+        let is_right = cells.iter().all(|cell| agrees(*cell));
+        (probes_of(&cells).len() >= FEWEST).then_some(JudgedLine { line, is_right, cells })
+    }
+}
+
+/// The lines of the colour that have no feature.
+fn without_feature(assignment: &Assignment, shows: &[Option<Vec<[bool; 3]>>]) -> Vec<usize> {
+    let lines = (0..shows.len()).filter(|line| shows[*line].is_none());
+    lines.filter(|line| !assignment.judges_position(&assignment.rubric[*line])).collect()
+}
+
+/// The only line beside features that judges no value of its own.
+fn rest_of(assignment: &Assignment, shows: &[Option<Vec<[bool; 3]>>]) -> Option<usize> {
+    let [line] = without_feature(assignment, shows)[..] else { return None };
+    let judged = assignment.equation.index(&assignment.rubric[line].judges);
+    let is_rest = judged.is_none_or(|judged| judged == assignment.equation.colour());
+    (is_rest && shows.iter().any(Option::is_some)).then_some(line)
 }
 
 /// The mistakes whose programs show what the solution shows, or what another mistake's do: what stands for each, and what it is like.
