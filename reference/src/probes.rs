@@ -20,6 +20,7 @@ use glam::{DMat4, DQuat, DVec3, DVec4};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 pub use spots::{Crossings, EdgeDefect, Pictured, ProbeOutput, Spot, at_pixel, linear};
+pub(crate) use spots::{FragmentInputs, handed_at};
 use std::ops::{Range, RangeInclusive};
 
 /// The last groups have one camera: the second of them has the positions of the first, the third has its own.

@@ -5,9 +5,9 @@
 
 use crate::equation::{DISCARDED, Reads};
 use crate::interpreter::trace::{Trace, ValueChange};
-use crate::interpreter::{Outputs, Prepared, Program, ProgramVariable, Stage};
-use crate::pipeline::{POSITION, Pipeline, columns, scalars};
-use crate::probes::{Probe, Spot};
+use crate::interpreter::{Interpolation, Outputs, Prepared, Program, ProgramVariable, Scalar, Stage};
+use crate::pipeline::{POSITION, Pipeline, Varying, columns, positions, scalars};
+use crate::probes::{FragmentInputs, Probe, Spot, handed_at};
 use crate::{Assignment, Value};
 use glam::{DVec3, DVec4};
 use std::sync::Arc;
@@ -110,6 +110,35 @@ impl TracedProgram {
             Stage::Vertex => &self.vertex,
             Stage::Fragment => &self.fragment,
         }
+    }
+
+    /// The inputs of the fragment stage that a vertex stage which is handed in writes, and how each is interpolated.
+    pub fn interpolated(&self) -> Vec<(&ProgramVariable, Interpolation)> {
+        let Some(pipeline) = self.pipeline.as_ref().filter(|_| self.handed_in == [true; 2]) else { return Vec::new() };
+        let is_float = |varying: &&Varying| {
+            let kind = &pipeline.vertex.outputs()[varying.output].kind;
+            matches!(kind.scalar(), Some(Scalar::Float | Scalar::Double) | None)
+        };
+        let own = |varying: &Varying| (&pipeline.fragment.inputs()[varying.input], varying.interpolation);
+        pipeline.varyings.iter().filter(is_float).map(own).collect()
+    }
+
+    /// The output of the vertex stage, by its place, that an input of the fragment stage is interpolated from.
+    pub fn interpolated_from(&self, input: &str) -> Option<usize> {
+        let pipeline = self.pipeline.as_ref()?;
+        let is_it = |varying: &&Varying| pipeline.fragment.inputs()[varying.input].name == input;
+        pipeline.varyings.iter().find(is_it).map(|varying| varying.output)
+    }
+
+    /// The same program where these of its inputs are interpolated in another way.
+    pub fn interpolating(&self, inputs: &[&str], interpolation: Interpolation) -> Self {
+        let mut other = self.clone();
+        if let Some(pipeline) = &mut other.pipeline {
+            let is_it =
+                |varying: &&mut Varying| inputs.contains(&pipeline.fragment.inputs()[varying.input].name.as_str());
+            pipeline.varyings.iter_mut().filter(is_it).for_each(|varying| varying.interpolation = interpolation);
+        }
+        other
     }
 
     /// Whether fragments depend on their neighbours.
@@ -229,28 +258,22 @@ impl<'p> Bench<'p> {
     fn hand_over(&mut self, outputs: &Outputs) -> Option<()> {
         let pipeline = self.program.pipeline.as_ref()?;
         let fragment = self.fragment.as_mut()?;
+        let spots = self.spots.iter().copied().collect::<Option<Vec<&Spot>>>()?;
+        let written = (0..pipeline.vertex.outputs().len()).map(|place| scalars(outputs, place)).collect();
+        let positions = positions(outputs, 3 * spots.len());
+        let [here, right, above] = handed_at(pipeline, &written, &positions, &spots, self.each > 1);
         for varying in &pipeline.varyings {
-            let written = scalars(outputs, varying.output);
             let input = &pipeline.fragment.inputs()[varying.input];
-            let is_flat = is_flat(&pipeline.vertex.outputs()[varying.output]);
-            let mixed = |column: &Vec<f64>, probe: usize, weights: [f64; 3]| {
-                (0..3).map(|corner| weights[corner] * column[3 * probe + corner]).sum::<f64>()
-            };
-            let around = |column: &Vec<f64>, (probe, spot): (usize, &Option<&Spot>)| match spot {
-                Some(spot) if !is_flat => {
-                    let beside = spot.weights_beside.map(|weights| mixed(column, probe, weights));
-                    (mixed(column, probe, spot.weights), beside)
-                }
-                _ => (column[3 * probe + 2], [column[3 * probe + 2]; 2]),
-            };
-            let of_column = |column: &Vec<f64>| {
-                let values = self.spots.iter().enumerate().map(|place| around(column, place));
-                let in_quad = |(here, beside): (f64, [f64; 2])| {
-                    QUAD[..self.each].iter().map(move |at| pipeline.at_pixel(here, beside, *at))
+            let of_scalar = |(scalar, own): (usize, &Vec<f64>)| {
+                let beside =
+                    |pixel: &FragmentInputs, at: usize| pixel.get(varying.output).map_or(0.0, |own| own[scalar][at]);
+                let in_quad = |at: usize| {
+                    let beside = [beside(&right, at), beside(&above, at)];
+                    QUAD[..self.each].iter().map(move |pixel| pipeline.at_pixel(own[at], beside, *pixel))
                 };
-                values.flat_map(in_quad).collect()
+                (0..spots.len()).flat_map(in_quad).collect()
             };
-            let columns: Vec<Vec<f64>> = written.iter().map(of_column).collect();
+            let columns: Vec<Vec<f64>> = here[varying.output].iter().enumerate().map(of_scalar).collect();
             fragment.feed(&input.name, &columns).ok()?;
         }
         Some(())
@@ -309,7 +332,6 @@ impl<'p> Bench<'p> {
 }
 
 fn is_flat(output: &ProgramVariable) -> bool {
-    use crate::interpreter::{Interpolation, Scalar};
     output.interpolation == Interpolation::Flat
         || !matches!(output.kind.scalar(), Some(Scalar::Float | Scalar::Double) | None)
 }

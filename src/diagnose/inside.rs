@@ -8,6 +8,7 @@
 mod additive;
 mod blame;
 mod finding;
+mod interpolated;
 mod own_values;
 mod quantities;
 mod repair;
@@ -76,6 +77,8 @@ pub(super) enum Flaw {
     ThrownAway,
     /// It decides the wrong way.
     Condition,
+    /// It is declared to be interpolated in another way than it should be.
+    Interpolation,
 }
 
 /// Looks for the one place that has to be mended for what is seen to be right.

@@ -18,7 +18,8 @@ use glam::{DQuat, DVec2, DVec3, DVec4};
 pub use pictured::Pictured;
 use rand_chacha::ChaCha8Rng;
 use seen::{seen_at, weights_at};
-use shown::{FragmentInputs, HandedAround, WAYS, mixed};
+pub(crate) use shown::{FragmentInputs, handed_at};
+use shown::{HandedAround, WAYS, mixed};
 pub use shown::{ProbeOutput, linear};
 
 /// How far from its own place a triangle may be moved, as a share of its mesh's size.

@@ -42,8 +42,8 @@ impl Search<'_, '_> {
         let Some(right) = self.quantities.equal_to(mend.stage, event) else { return true };
         // A number is what many are by chance.
         let is_by_chance = quantity.is_constant && event.values.len() == 1;
-        let is_of_its_kind =
-            event.values.len() == quantity.turns[0].len() && !is_by_chance && !quantity.names.is_empty();
+        let is_known = !quantity.names.is_empty() || quantity.is_interpolated && self.is_other_input(mend, trace);
+        let is_of_its_kind = event.values.len() == quantity.turns[0].len() && !is_by_chance && is_known;
         if !mend.suspect.gives_right || matches!(site.what, What::Read(_)) {
             return is_of_its_kind;
         }

@@ -30,11 +30,21 @@ impl Search<'_, '_> {
             Some(line) => (line, Flaw::ThrownAway),
             None => overwritten.map_or((site.line, flaw), |line| (line, Flaw::Overwrites)),
         };
-        let name = variable(sites, mend.suspect.site);
+        let is_interpolated = flaw == Flaw::Value && quantity.is_some_and(|quantity| quantity.is_interpolated);
+        let handed_over = if is_interpolated { self.handed_over(mend) } else { None };
+        let is_handed_over = handed_over.is_some();
+        let (stage, line, name) = match handed_over {
+            Some((line, name)) => (Stage::Vertex, line, Some(name)),
+            None => (mend.stage, line, variable(sites, mend.suspect.site)),
+        };
         let lane = worst(event, &mend.values[0]);
-        let at = |columns: &ScalarColumns| columns.iter().map(|column| column[lane]).collect();
+        // What a fragment is given is no value of the vertex stage.
+        let at = |columns: &ScalarColumns| match is_handed_over {
+            true => Vec::new(),
+            false => columns.iter().map(|column| column[lane]).collect(),
+        };
         Some(Finding {
-            stage: mend.stage,
+            stage,
             line,
             name,
             quantity: quantity.and_then(|quantity| quantity.names.first().cloned()),
@@ -42,7 +52,7 @@ impl Search<'_, '_> {
             is_whole: self.is_whole(mend),
             is_telling: (self.is_telling(mend) || flaw != Flaw::Value) && !self.is_start(mend),
             touches_position: !is_in_place(self.wanted, self.own, self.count),
-            is_use: matches!(site.what, What::Read(_)),
+            is_use: !is_handed_over && matches!(site.what, What::Read(_)),
             touches: match missing {
                 Some(missing) => missing,
                 None => quantity.map_or_else(Vec::new, |quantity| self.quantities.touched_by(quantity)),

@@ -23,6 +23,8 @@ pub(super) struct Quantity {
     pub is_bool: bool,
     /// Whether it is written as it is, or read: what may stand in the place of a number.
     pub is_leaf: bool,
+    /// Whether it is what a fragment is given of a variable between the stages.
+    pub is_interpolated: bool,
     /// What is added up to it.
     pub addends: Vec<(Option<String>, ScalarColumns)>,
     /// Whether it is some addends of a sum, which the right answer does not add by themselves.
@@ -172,6 +174,7 @@ fn name(program: &Program, event: &Event) -> Option<String> {
 fn of_stage(stage: Stage, program: &Program, trace: &Trace) -> Vec<Quantity> {
     let mut found: Vec<Quantity> = Vec::new();
     let sites = program.sites();
+    let is_input = |name: &str| program.inputs().iter().any(|input| input.name == name);
     let mut by_site: Vec<Vec<usize>> = vec![Vec::new(); sites.len()];
     trace.events.iter().enumerate().for_each(|(number, event)| by_site[event.site].push(number));
     for (site, events) in sites.iter().zip(by_site).filter(|(_, events)| !events.is_empty()) {
@@ -194,6 +197,7 @@ fn of_stage(stage: Stage, program: &Program, trace: &Trace) -> Vec<Quantity> {
             is_bool,
             is_partial: false,
             is_leaf: matches!(site.what, What::Literal | What::Read(_)),
+            is_interpolated: matches!(&site.what, What::Read(name) if stage == Stage::Fragment && is_input(name)),
         };
         if turns.len() > 1 {
             for (turn, event) in turns.iter().zip(&events).take(8) {
@@ -239,6 +243,7 @@ fn partial_sums(all: &[Quantity]) -> Vec<Quantity> {
             is_bool: false,
             is_partial: true,
             is_leaf: false,
+            is_interpolated: false,
             addends,
         }
     };
@@ -257,6 +262,7 @@ fn add(found: &mut Vec<Quantity>, quantity: Quantity) {
             own.names.extend(quantity.names);
             own.events.extend(quantity.events);
             own.is_leaf |= quantity.is_leaf;
+            own.is_interpolated |= quantity.is_interpolated;
         }
         None => found.push(quantity),
     }

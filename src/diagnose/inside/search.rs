@@ -56,6 +56,9 @@ impl Mend {
 
 impl Search<'_, '_> {
     pub fn findings(&mut self) -> Vec<Finding> {
+        if let Some(declared) = self.otherwise_interpolated() {
+            return vec![declared];
+        }
         let mend = self.mend_but(None);
         if let Some(mend) = mend.as_ref().filter(|mend| self.is_telling(mend)) {
             return self.finding(mend).into_iter().collect();

@@ -38,6 +38,10 @@ impl Finding {
                 ),
                 format!("{line} 行目の条件を見てみましょう。本来と逆に判定されるところがあります。"),
             ),
+            Flaw::Interpolation => Text::new(
+                format!("What is declared on line {line} is interpolated in another way than it should be."),
+                format!("{line} 行目の宣言では、補間のしかたが違います。"),
+            ),
             Flaw::Value => self.value(means),
         }
     }

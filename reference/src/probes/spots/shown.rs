@@ -18,10 +18,10 @@ const MOVED: f64 = 1e-5;
 const SUDDEN: f64 = 2e-3;
 
 /// What is handed over at each of some fragments: by output of the vertex stage, scalar and fragment.
-pub(super) type FragmentInputs = Vec<Vec<Vec<f64>>>;
+pub(crate) type FragmentInputs = Vec<Vec<Vec<f64>>>;
 
 /// The same there, at the pixels to the right, and at those above; nothing of the last two where nobody looks at them.
-pub(super) type HandedAround = [FragmentInputs; 3];
+pub(crate) type HandedAround = [FragmentInputs; 3];
 
 /// A run of the fragment stage at a spot.
 #[derive(Clone, Copy)]
@@ -219,15 +219,8 @@ impl Assignment {
         let spots: Vec<Spot> = probes.iter().filter_map(|probe| probe.spot.as_deref().cloned()).collect();
         let vertices: Vec<Vertex> = spots.iter().flat_map(|spot| spot.corners).collect();
         let (positions, written) = self.handed_by(&pipeline.vertex, uniforms, &vertices)?;
-        let mixed = |weights: &dyn Fn(&Spot) -> [f64; 3]| {
-            let shares: Vec<_> = spots.iter().map(weights).enumerate().collect();
-            mixed(pipeline, &written, &positions, &shares)
-        };
-        let beside = |pixel: usize| match pipeline.has_derivatives() {
-            true => mixed(&|spot| spot.weights_beside[pixel]),
-            false => FragmentInputs::new(),
-        };
-        let handed = [mixed(&|spot| spot.weights), beside(0), beside(1)];
+        let all: Vec<&Spot> = spots.iter().collect();
+        let handed = handed_at(pipeline, &written, &positions, &all, pipeline.has_derivatives());
         let colours = self.colours(pipeline, uniforms, &spots, &handed, ways)?;
         let shown = |(spot, (colour, is_steady))| {
             let position = self.equation.position.map_or(DVec4::W, |_| positions[3 * spot]);
@@ -235,6 +228,26 @@ impl Assignment {
         };
         Some(colours.into_iter().enumerate().map(shown).collect())
     }
+}
+
+/// What is interpolated at fragments, and at the pixels beside them where somebody looks at these. `positions`: those of the corners,
+/// in clip space.
+pub(crate) fn handed_at(
+    pipeline: &Pipeline,
+    written: &FragmentInputs,
+    positions: &[DVec4],
+    spots: &[&Spot],
+    with_beside: bool,
+) -> HandedAround {
+    let mixed = |weights: &dyn Fn(&Spot) -> [f64; 3]| {
+        let shares: Vec<_> = spots.iter().map(|spot| weights(spot)).enumerate().collect();
+        mixed(pipeline, written, positions, &shares)
+    };
+    let beside = |pixel: usize| match with_beside {
+        true => mixed(&|spot| spot.weights_beside[pixel]),
+        false => FragmentInputs::new(),
+    };
+    [mixed(&|spot| spot.weights), beside(0), beside(1)]
 }
 
 /// What is interpolated at fragments: the number of each triangle, and the shares of its corners. How, the fragment stage
