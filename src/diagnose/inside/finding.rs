@@ -30,8 +30,7 @@ impl Search<'_, '_> {
             Some(line) => (line, Flaw::ThrownAway),
             None => overwritten.map_or((site.line, flaw), |line| (line, Flaw::Overwrites)),
         };
-        let is_interpolated = flaw == Flaw::Value && quantity.is_some_and(|quantity| quantity.is_interpolated);
-        let handed_over = if is_interpolated { self.handed_over(mend) } else { None };
+        let handed_over = if flaw == Flaw::Value && quantity.is_some() { self.handed_over(mend) } else { None };
         let is_handed_over = handed_over.is_some();
         let (stage, line, name) = match handed_over {
             Some((line, name)) => (Stage::Vertex, line, Some(name)),

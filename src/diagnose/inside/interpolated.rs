@@ -2,13 +2,28 @@
 
 use super::search::{Mend, Search, is_right};
 use super::{Finding, Flaw, Stage, Trace, What};
-use crate::diagnose::columns::is_same;
+use crate::diagnose::columns::{ScalarColumns, is_same};
 use crate::diagnose::trials::FUEL_OF_TRACE;
 use reference::interpreter::Interpolation;
 use reference::interpreter::trace::Event;
 use reference::traced::Bench;
 
 const WAYS: [Interpolation; 3] = [Interpolation::Smooth, Interpolation::Flat, Interpolation::NoPerspective];
+
+/// Whether a vector has the direction of another one: what it lacks, it lacks where it is used.
+fn is_along(event: &Event, wanted: &ScalarColumns) -> bool {
+    /// The square of the sine of the angle between two that have one direction.
+    const APART: f64 = 1e-6;
+    let dot = |a: &ScalarColumns, b: &ScalarColumns, lane: usize| -> f64 {
+        a.iter().zip(b).take(3).map(|(a, b)| a[lane] * b[lane]).sum()
+    };
+    let is_lane = |lane: usize| {
+        let (own, right) = (dot(&event.values, &event.values, lane), dot(wanted, wanted, lane));
+        let both = dot(&event.values, wanted, lane);
+        both > 0.0 && own * right - both * both <= APART * own * right
+    };
+    event.values.len() > 1 && (0..event.lanes.len()).all(is_lane)
+}
 
 impl Search<'_, '_> {
     /// The declaration of an input of the fragment stage with which all would be right if it were interpolated in another way; of
@@ -60,7 +75,8 @@ impl Search<'_, '_> {
         let What::Read(name) = &fragment.sites()[mend.suspect.site].what else { return None };
         let is_input = self.theirs.interpolated().iter().any(|(input, _)| input.name == *name);
         let event = &self.trace(mend.stage)?.events[*mend.suspect.events.first()?];
-        if mend.stage != Stage::Fragment || !is_input || self.quantities.equal_to(mend.stage, event).is_some() {
+        let is_right = self.quantities.equal_to(mend.stage, event).is_some() || is_along(event, &mend.values[0]);
+        if mend.stage != Stage::Fragment || !is_input || is_right {
             return None;
         }
         let vertex = self.trace(Stage::Vertex)?;
