@@ -236,7 +236,13 @@ impl Search<'_, '_> {
         let judged = |name: &String| self.assignment.rubric.iter().any(|line| line.judges == *name);
         let (operator, definition) = match added.filter(judged) {
             Some(term) if repair.mistake == Operator::AddendLeftOut => (Operator::LeftOut, Some(term)),
-            _ => (repair.mistake, self.definition_at(*stage, program, &trace, repair.mistake)),
+            _ => match self.definition_at(*stage, program, &trace, repair.mistake) {
+                // A factor of a part is none of the whole.
+                found if is_number_too_many(repair) && !matches!(found, Some((_, true))) => {
+                    (Operator::OtherNumber, found.map(|(name, _)| name))
+                }
+                found => (repair.mistake, found.map(|(name, _)| name)),
+            },
         };
         let mistake = self.assignment.repaired(operator, definition.as_deref(), repair.is_bound_by_zero);
         let marks = program.sites().iter().position(|site| site.line == ProgramRepair::MARK);
@@ -249,8 +255,15 @@ impl Search<'_, '_> {
         })
     }
 
-    /// The definition of the right answer that a value comes to first which is computed from what was changed.
-    fn definition_at(&self, stage: Stage, program: &Program, trace: &Trace, mistake: Operator) -> Option<String> {
+    /// The definition of the right answer that a value comes to first which is computed from what was changed, and whether it is
+    /// what was changed itself.
+    fn definition_at(
+        &self,
+        stage: Stage,
+        program: &Program,
+        trace: &Trace,
+        mistake: Operator,
+    ) -> Option<(String, bool)> {
         let sites = program.sites();
         // Another value is the wrong one in what is made of it.
         let is_of_use = matches!(
@@ -266,7 +279,7 @@ impl Search<'_, '_> {
             }
             let is_given = matches!(sites[event.site].what, What::Assign { .. });
             if let Some(name) = self.named(stage, event, is_given) {
-                return Some(name);
+                return Some((name, is_marked));
             }
         }
         None
@@ -292,6 +305,15 @@ impl Search<'_, '_> {
         };
         self.quantities.all.iter().find(is_it)?.names.first().cloned()
     }
+}
+
+/// Whether a number goes that something is multiplied by, or that is added to it.
+fn is_number_too_many(repair: &ProgramRepair) -> bool {
+    let [before, after] = &repair.texts;
+    let is_number = |word: &str| word.starts_with(|c: char| c.is_ascii_digit() || c == '.');
+    let mut gone = before.split(|c: char| !(c.is_ascii_alphanumeric() || "_.".contains(c)));
+    matches!(repair.mistake, Operator::Scaled | Operator::Shifted)
+        && gone.all(|word| word.is_empty() || after.contains(word) || is_number(word))
 }
 
 /// Stages in which something was found come first.

@@ -19,8 +19,9 @@ pub(super) fn mistake_of(root: &Expression, change: &Change) -> Operator {
             false => Operator::Shifted,
         }),
         Operator::FactorLeftOut | Operator::DivisorLeftOut => {
+            let is_factor = change.operator == Operator::FactorLeftOut;
             removed().map_or(Operator::Times, |removed| match (removed.is_there_still, removed.is_literal) {
-                (true, _) => Operator::Squared,
+                (true, _) if is_factor => Operator::Squared,
                 (_, true) => Operator::Scaled,
                 _ => Operator::Times,
             })

@@ -71,7 +71,7 @@ impl Repairable {
 
     /// The changes of what stands on these lines: those of the first line first, the smaller ones before others.
     pub fn repairs(&self, lines: &[u32], right: &Ingredients) -> Vec<ProgramRepair> {
-        let mut found: Vec<(usize, usize, ProgramRepair)> = Vec::new();
+        let mut found: Vec<(usize, (usize, bool), ProgramRepair)> = Vec::new();
         let (mut expression, mut statement) = (0, 0);
         let rank = |own: &[u32]| lines.iter().position(|line| own.contains(line));
         let mut statements = Vec::new();
@@ -89,7 +89,7 @@ impl Repairable {
                         };
                         statements.push((
                             rank,
-                            tokens(&written).len(),
+                            (tokens(&written).len(), false),
                             ProgramRepair {
                                 mistake: of_statement(own),
                                 line: own.line,
@@ -110,7 +110,7 @@ impl Repairable {
                     if let Some(rank) = rank(&own_lines) {
                         let all = of_expression(own, number, names, right);
                         let sized = all.into_iter().map(|repair| (rank, size(&repair.texts), repair));
-                        found.extend(sized.filter(|(_, size, _)| *size <= LARGEST));
+                        found.extend(sized.filter(|(_, (size, _), _)| *size <= LARGEST));
                     }
                 },
             },
@@ -209,8 +209,9 @@ fn is_statement(parent: &Expression) -> bool {
     matches!(parent.kind, ExpressionKind::Assign(..))
 }
 
-/// How many words and signs a change takes away and puts there.
-fn size(texts: &[String; 2]) -> usize {
+/// How many words and signs a change takes away and puts there, and whether it puts any there: what is too much is plainer than what
+/// another one should stand for.
+fn size(texts: &[String; 2]) -> (usize, bool) {
     let [mut before, mut after] = [tokens(&texts[0]), tokens(&texts[1])];
     before.retain(|token| match after.iter().position(|other| other == token) {
         Some(place) => {
@@ -219,7 +220,7 @@ fn size(texts: &[String; 2]) -> usize {
         }
         None => true,
     });
-    before.len() + after.len()
+    (before.len() + after.len(), !after.is_empty())
 }
 
 fn tokens(text: &str) -> Vec<&str> {
