@@ -64,6 +64,12 @@ pub struct Evidence<'a> {
 }
 
 impl<'a> Evidence<'a> {
+    /// The numbers that stand in the texts.
+    fn numbers(&self) -> Vec<f64> {
+        let texts = self.sources.iter().map(|(_, source)| source.code());
+        texts.flat_map(reference::interpreter::numbers).collect()
+    }
+
     /// The text of a stage, and the file that was handed out for it.
     fn text(&self, stage: Option<reference::interpreter::Stage>) -> (&'a Source, &'a str) {
         let own = |known: reference::interpreter::Stage| stage == Some(known);

@@ -18,6 +18,8 @@ pub struct AcceptedAnswer {
     /// The name of its file.
     pub name: String,
     pub(crate) pipeline: Pipeline,
+    /// What it has in place of texts of the solution, where that is all in which it differs.
+    pub(crate) replaced: Vec<[String; 2]>,
     /// What is asked for, read in another way, where the answer is right by that.
     pub reading: Option<Arc<Reading>>,
 }
@@ -51,7 +53,7 @@ impl Assignment {
             Stage::Fragment => [&right.vertex, &own],
         };
         let pipeline = Pipeline::link(vertex, fragment, None).ok()?;
-        Some(AcceptedAnswer { name: name.to_owned(), pipeline, reading: None })
+        Some(AcceptedAnswer { name: name.to_owned(), pipeline, replaced: Vec::new(), reading: None })
     }
 
     /// The same probes with what an answer computes there.

@@ -10,8 +10,10 @@ mod digits;
 mod factor;
 mod features;
 mod parts;
+mod programs;
 mod search;
 mod solve;
+mod taste;
 mod terms;
 mod views;
 
@@ -20,6 +22,7 @@ pub use derived::explain_derived;
 pub use factor::judge_factor;
 pub use features::{FEWEST, Footprints, JudgedLine, ProbeChannel, alike, judge_features, program_of};
 pub use parts::{FeatureDefect, FeatureExplanation, explain_parts};
+pub use programs::programs_of;
 pub use terms::{TermJudgement, Worst};
 
 use crate::Assignment;
@@ -105,6 +108,11 @@ pub fn contradicted(
         None => None,
     };
     let samples = padded(probes, samples);
+    // A whole file in place of the solution has nothing to be put into.
+    let of_texts = || taste::contradicted_but_for_taste(assignment, found, probes, &samples, &|_, _| true, tolerance);
+    if let Some(contradicted) = (!found.is_empty()).then(of_texts).flatten() {
+        return contradicted;
+    }
     if let Some(shown) = features::shown_with(assignment, found, probes) {
         return shown.iter().zip(samples).map(|(shown, sample)| !agrees(*shown, sample, tolerance)).collect();
     }

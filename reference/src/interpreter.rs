@@ -66,6 +66,7 @@ pub use run::{
 };
 pub use sheet::{Cell, Formula, Registers, Sheet, StoredOutput};
 pub use syntax::Binary;
+pub use text::numbers;
 pub use texture::{Compare, Depths, Filter, Level, Lookup, Texels, Texture, Wrap};
 pub use types::{Dimension, Sampler, Scalar, Struct, Type};
 

@@ -14,6 +14,7 @@
 //! - [`typeset`]: the equation as the lecture writes it
 //! - [`rasteriser`], [`frames`]: the pictures
 //! - [`probes`]: samples in which every term, every clamp and every known mistake shows
+//! - `together`: several mistakes in one program
 //! - [`fit`]: which mistakes explain what a shader computed
 //! - [`page`]: shaders as pages for sharing them have them
 //! - [`proposal`]: a folder, written from a solution
@@ -52,6 +53,7 @@ pub mod schema;
 mod shading;
 mod text;
 pub mod texture;
+mod together;
 pub mod traced;
 pub mod typeset;
 mod unjudged;

@@ -17,7 +17,7 @@ pub struct Mistake {
     pub forms: Vec<MistakeForm>,
     /// The ways in which it is written, each as a whole program; their numbers follow those of the forms.
     pub variants: Vec<AcceptedAnswer>,
-    /// The number in the forms that is not known beforehand.
+    /// The number in the forms or variants that is not known beforehand.
     pub fit: Option<FreeParameter>,
     /// Whether the handed-out file itself has it, so that its own line may be named.
     pub handed_out: bool,
@@ -100,7 +100,7 @@ pub struct DefinitionOverride {
 /// A number that is found from the samples.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FreeParameter {
-    /// Its name in the forms.
+    /// Its name in the forms or variants.
     pub name: String,
     /// The least value that it may have; above 0.
     pub from: f64,

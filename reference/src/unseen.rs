@@ -123,7 +123,7 @@ impl Assignment {
 
     /// The solution as an answer.
     fn own_answer(&self) -> AcceptedAnswer {
-        AcceptedAnswer { name: String::new(), pipeline: self.pipeline.clone(), reading: None }
+        AcceptedAnswer { name: String::new(), pipeline: self.pipeline.clone(), replaced: Vec::new(), reading: None }
     }
 }
 

@@ -15,7 +15,7 @@ use reference::derived::is_derived;
 use reference::equation::{DISCARDED, Reads};
 use reference::fit::{
     Alternatives, FeatureDefect, FeatureExplanation, Fit, MOST_MISTAKES, TermJudgement, explain_derived, explain_parts,
-    is_right, judge_factor, judge_features, judge_terms, program_of,
+    is_right, judge_factor, judge_features, judge_terms, program_of, programs_of,
 };
 use reference::mistake::{FoundMistake, Mistake};
 use reference::probes::ProbeSet;
@@ -144,11 +144,19 @@ fn unexplained(
     if let Some(listed) = Listed::of(evidence) {
         return Cause::Unexplained { terms: listed.terms(evidence), findings: Vec::new() };
     }
-    if let Some(parts) = explain_parts(alternatives, samples, &is_there(evidence), COLOUR_TOLERANCE) {
-        return Cause::Parts(parts);
-    }
-    if let Some(cause) = derived(evidence, samples) {
-        return cause;
+    let parts = explain_parts(alternatives, samples, &is_there(evidence), COLOUR_TOLERANCE);
+    match parts {
+        Some(parts) if parts.found.is_empty() && parts.is_missing() => return Cause::Parts(parts),
+        parts => {
+            // What a lecturer wrote down says more than that a feature is missing.
+            let numbers = evidence.numbers();
+            if let Some(found) = programs_of(alternatives, samples, &numbers, &is_there(evidence), COLOUR_TOLERANCE) {
+                return Cause::Known { constants: Vec::new(), found };
+            }
+            if let Some(parts) = parts {
+                return Cause::Parts(parts);
+            }
+        }
     }
     let (findings, repairs) = inside::account(evidence);
     let terms = match judge_factor(assignment, probes, samples, COLOUR_TOLERANCE) {

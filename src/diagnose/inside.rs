@@ -26,7 +26,6 @@ pub(super) use own_values::own_values;
 use quantities::Quantities;
 pub(super) use quantities::made_of;
 use reference::Assignment;
-use reference::equation::EquationVariant;
 use reference::interpreter::trace::{Site, Trace, What};
 use reference::interpreter::{Binary, Stage};
 use reference::mistake::FoundMistake;
@@ -83,7 +82,7 @@ pub(super) enum Flaw {
 
 /// Looks for the one place that has to be mended for what is seen to be right.
 pub(super) fn find(evidence: &Evidence<'_>) -> Vec<Finding> {
-    within(evidence, evidence.assignment, None, &[], |search| search.findings()).unwrap_or_default()
+    within(evidence, evidence.assignment, &[], &[], |search| search.findings()).unwrap_or_default()
 }
 
 /// The same, and the changes of the text by which all becomes right, where there are such.
@@ -93,7 +92,7 @@ pub(super) fn account(evidence: &Evidence<'_>) -> (Vec<Finding>, Vec<Repaired>) 
         let repairs = search.repairs(&findings);
         (findings, repairs)
     };
-    within(evidence, evidence.assignment, None, &[], both).unwrap_or_default()
+    within(evidence, evidence.assignment, &[], &[], both).unwrap_or_default()
 }
 
 /// Looks for the place of one of the mistakes that were found: where a right answer is the one with the others in it.
@@ -105,17 +104,14 @@ pub(super) fn find_one(
 ) -> Option<Finding> {
     let others: Vec<FoundMistake> =
         found.iter().enumerate().filter(|(at, _)| *at != index).map(|(_, other)| other.clone()).collect();
-    let findings = match others.is_empty() {
-        true => within(evidence, assignment, None, &[], |search| search.findings())?,
-        false => within(evidence, assignment, Some(&assignment.variant(&others)?), &[], |search| search.findings())?,
-    };
+    let findings = within(evidence, assignment, &others, &[], |search| search.findings())?;
     // A mistake may be made in two places: each is one that is to be mended.
     findings.into_iter().next()
 }
 
 /// The one place that all is mended at, where there is such a place.
 pub(super) fn only(evidence: &Evidence<'_>, assignment: &Assignment) -> Option<Finding> {
-    let findings = within(evidence, assignment, None, &[], |search| search.findings())?;
+    let findings = within(evidence, assignment, &[], &[], |search| search.findings())?;
     match <[Finding; 1]>::try_from(findings) {
         Ok([finding]) if finding.is_settled && !finding.is_whole => Some(finding),
         _ => None,
@@ -144,16 +140,20 @@ pub(super) fn variable(sites: &[Site], site: usize) -> Option<String> {
 }
 
 /// Looks into the text by `look`, at some of the probes and at these places after them; what it finds where nothing is wrong there, is
-/// nothing.
+/// nothing. `others`: mistakes that a right answer has, as far as `look` is concerned.
 fn within<T: Default>(
     evidence: &Evidence<'_>,
     assignment: &Assignment,
-    right: Option<&EquationVariant<'_>>,
+    others: &[FoundMistake],
     more: &[Place<'_>],
     look: impl FnOnce(&mut Search<'_, '_>) -> T,
 ) -> Option<T> {
     let theirs = evidence.traced?;
-    let solution = TracedProgram::solution(assignment).ok()?;
+    let variant = if others.is_empty() { None } else { assignment.variant(others) };
+    let solution = match (&variant, others) {
+        (Some(_), _) | (None, []) => TracedProgram::solution(assignment).ok()?,
+        (None, others) => assignment.traced_with(others)?,
+    };
     let chosen = chosen(evidence);
     if chosen.is_empty() {
         return None;
@@ -168,7 +168,7 @@ fn within<T: Default>(
     let (mut wanted, right_traces) =
         Bench::new(assignment, &solution, &places, in_quads, FUEL_OF_TRACE)?.trace(&StageChanges::default())?;
     let mut quantities = Quantities::of(&solution, right_traces);
-    if let Some(variant) = right {
+    if let Some(variant) = &variant {
         wanted.colours = quantities.replace(assignment, variant, &places, if in_quads { 4 } else { 1 })?;
     }
     let trials = Trials::new(assignment, theirs, &places, in_quads)?;

@@ -4,6 +4,7 @@ use crate::Assignment;
 use crate::accepted::{AcceptedAnswer, Computed};
 use crate::mistake::FoundMistake;
 use crate::probes::ProbeSet;
+use crate::together::has_name;
 use std::cell::OnceCell;
 
 /// What the alternatives of an assignment show at some probes. Each is run once, when it is first asked for.
@@ -20,8 +21,14 @@ impl<'a> Alternatives<'a> {
     pub fn new(assignment: &'a Assignment, probes: &'a ProbeSet) -> Self {
         let programs = assignment.mistakes.iter().flat_map(|mistake| {
             let ways = mistake.variants.iter().zip(mistake.forms.len()..);
-            ways.map(|(program, form)| {
-                (FoundMistake { id: mistake.id.clone(), form, parameter: None }, program, OnceCell::new())
+            // One with a number is tried with the likeliest first.
+            let parameter = |program: &AcceptedAnswer| {
+                let fit = mistake.fit.as_ref()?;
+                program.replaced.iter().any(|[_, to]| has_name(to, &fit.name)).then_some(fit.example)
+            };
+            ways.map(move |(program, form)| {
+                let found = FoundMistake { id: mistake.id.clone(), form, parameter: parameter(program) };
+                (found, program, OnceCell::new())
             })
         });
         let features = assignment.features.iter().map(|_| OnceCell::new());

@@ -24,7 +24,8 @@ pub fn program_of(
             agrees(*colour, *sample, tolerance) && is_there(place, *position)
         })
     };
-    let mut programs = alternatives.programs();
+    // A number is taken from the text.
+    let mut programs = alternatives.programs().filter(|(found, ..)| found.parameter.is_none());
     programs.find(|(_, _, computed)| shows(computed)).map(|(found, ..)| found.clone())
 }
 

@@ -33,6 +33,13 @@ pub struct FeatureExplanation {
     pub parts: Vec<(usize, FeatureDefect)>,
 }
 
+impl FeatureExplanation {
+    /// Whether features are missing, and none is in another strength.
+    pub fn is_missing(&self) -> bool {
+        self.parts.iter().all(|(_, defect)| *defect == FeatureDefect::Missing)
+    }
+}
+
 /// The fewest features that explain the samples, where any do.
 ///
 /// `is_there`: whether a sample's position is a given one.

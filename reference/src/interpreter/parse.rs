@@ -2,7 +2,7 @@
 
 mod declaration;
 mod expression;
-mod literal;
+pub(super) mod literal;
 mod statement;
 
 use super::Refusal;

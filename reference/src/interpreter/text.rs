@@ -8,7 +8,24 @@ mod preprocessor;
 pub use lexer::tokens;
 pub use preprocessor::preprocess;
 
+use super::parse::literal::literal;
+use super::syntax::ExpressionKind;
 use std::rc::Rc;
+
+/// The numbers that stand in a text, each once, in their order.
+pub fn numbers(text: &str) -> Vec<f64> {
+    let mut found: Vec<f64> = Vec::new();
+    for token in tokens(text).iter().filter(|token| token.kind == TokenKind::Number) {
+        let number = match literal(&token.text) {
+            Some(ExpressionKind::Integer(value, _) | ExpressionKind::Floating(value, _)) => value,
+            _ => continue,
+        };
+        if !found.contains(&number) {
+            found.push(number);
+        }
+    }
+    found
+}
 
 /// What a token is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -24,7 +24,7 @@ pub struct Mistake {
     /// The ways in which it is written, each as the solution, changed.
     #[serde(default)]
     pub variants: Vec<Variant>,
-    /// The free parameter of its forms.
+    /// The free parameter of its forms or variants.
     pub fit: Option<Fit>,
     /// Whether the handed-out file itself has the mistake.
     #[serde(default)]

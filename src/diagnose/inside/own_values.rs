@@ -61,7 +61,7 @@ pub(in crate::diagnose) fn own_values(
         };
         Some(OwnValues { places: all.iter().enumerate().map(place).collect(), lines: found })
     };
-    let mut found = within(evidence, evidence.assignment, None, &places, look)??;
+    let mut found = within(evidence, evidence.assignment, &[], &places, look)??;
     if found.lines.len() > LINES_OF_ALL_PLACES {
         found.keep_ends();
     }

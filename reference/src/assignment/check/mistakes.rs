@@ -8,6 +8,7 @@ use crate::assignment::{Constant, both, error};
 use crate::interpreter::Type;
 use crate::manifest::{self, RubricLine, TermState};
 use crate::mistake::{Alternative, Condition, DefinitionOverride, FreeParameter, Mistake, MistakeForm};
+use crate::together::has_name;
 use serde::Deserialize;
 use std::collections::{BTreeMap, HashSet};
 use toml::Spanned;
@@ -119,17 +120,23 @@ fn mistake(
         };
         forms.push(form(texts, solution, free, &at, &format!("{place}, form {number}"))?);
     }
-    if fit.is_some() && !forms.iter().any(|f| f.free) {
+    let is_used = |fit: &FreeParameter| {
+        let mut texts = entry.variants.iter().flat_map(|variant| &variant.replace);
+        forms.iter().any(|form| form.free) || texts.any(|[_, to]| has_name(to, &fit.name))
+    };
+    if fit.as_ref().is_some_and(|fit| !is_used(fit)) {
         return Err(error(
             place,
             both(
-                "no form uses the name in `fit`: use it, or remove `fit`",
-                "どの form も `fit` の名前を使っていません。使うか、`fit` を取り除いてください",
+                "no form or variant uses the name in `fit`: use it, or remove `fit`",
+                "どの form や variant も `fit` の名前を使っていません。使うか、`fit` を取り除いてください",
             ),
         ));
     }
     let numbered = entry.variants.iter().enumerate();
-    let variants = numbered.map(|(number, variant)| variants.program(variant, &format!("{place}, variant {number}")));
+    let likeliest = fit.as_ref().map(|fit| (fit.name.as_str(), fit.example));
+    let variants = numbered
+        .map(|(number, variant)| variants.program_with(variant, likeliest, &format!("{place}, variant {number}")));
     Ok(Mistake {
         variants: variants.collect::<CheckResult<_>>()?,
         id: entry.id,

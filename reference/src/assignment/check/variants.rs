@@ -5,6 +5,7 @@ use super::{CheckResult, listed};
 use crate::accepted::AcceptedAnswer;
 use crate::assignment::{HandedIn, both, error};
 use crate::manifest;
+use crate::together::with_number;
 
 /// Makes programs of variants.
 pub(super) struct Variants<'a> {
@@ -16,6 +17,16 @@ pub(super) struct Variants<'a> {
 impl Variants<'_> {
     /// The program of a variant; `place`: where it stands.
     pub fn program(&self, variant: &manifest::Variant, place: &str) -> CheckResult<AcceptedAnswer> {
+        self.program_with(variant, None, place)
+    }
+
+    /// The same with a number in place of a name.
+    pub fn program_with(
+        &self,
+        variant: &manifest::Variant,
+        number: Option<(&str, f64)>,
+        place: &str,
+    ) -> CheckResult<AcceptedAnswer> {
         let manifest::Variant { define, replace, file, of } = variant;
         if define.is_empty() && replace.is_empty() && file.is_none() {
             let message = both(
@@ -42,11 +53,13 @@ impl Variants<'_> {
                 );
                 return Err(error(place, message));
             };
-            texts[*at] = texts[*at].replacen(from.as_str(), to, 1);
+            let to = number.map_or_else(|| to.clone(), |(name, value)| with_number(to, name, value));
+            texts[*at] = texts[*at].replacen(from.as_str(), &to, 1);
         }
         let changed = texts.into_iter().zip(self.files).map(|(text, file)| (file, with_macros(&text, define)));
         let changed: Vec<_> = changed.filter(|(file, text)| *text != file.solution.text).collect();
-        self.stages.changed(&changed, place)
+        let replaced = if define.is_empty() && file.is_none() { replace.clone() } else { Vec::new() };
+        Ok(AcceptedAnswer { replaced, ..self.stages.changed(&changed, place)? })
     }
 
     /// The files that a variant may change.
