@@ -173,9 +173,19 @@ pub fn costs() -> impl Iterator<Item = (String, &'static crate::Text, f64)> {
 
 /// What a derived mistake is, by the operator in its id: a repair may name one that no change of the solution makes.
 pub fn title(id: &str) -> Option<&'static crate::Text> {
+    read(id).map(|(said, _)| &said.title)
+}
+
+/// The definition that a derived mistake is in, by its id.
+pub fn definition(id: &str) -> Option<&str> {
+    read(id).map(|(_, name)| name)
+}
+
+/// The operator and the definition in an id.
+fn read(id: &str) -> Option<(&'static OperatorText, &str)> {
     let rest = id.strip_prefix(PREFIX)?;
-    let is_it = |said: &&OperatorText| rest.strip_prefix(&*said.id).is_some_and(|name| name.starts_with('-'));
-    operators().iter().filter(is_it).max_by_key(|said| said.id.len()).map(|said| &said.title)
+    let known = operators().iter().filter_map(|said| Some((said, rest.strip_prefix(&*said.id)?.strip_prefix('-')?)));
+    known.max_by_key(|(said, _)| said.id.len())
 }
 
 fn places(probes: &ProbeSet) -> Vec<(Vec<Value>, Vec<Value>)> {

@@ -2,8 +2,10 @@
 
 use crate::Assignment;
 use crate::accepted::{AcceptedAnswer, Computed};
+use crate::interpreter::Stage;
 use crate::mistake::MistakeForm;
 use crate::probes::ProbeSet;
+use crate::traced::TracedProgram;
 
 /// The solution without what a line judges.
 #[derive(Clone, Debug)]
@@ -15,6 +17,30 @@ pub enum Feature {
 }
 
 impl Assignment {
+    /// The value that is missing in the solution without what a line of the rubric judges: the solution, and the stage and the site
+    /// of the value in it. None where what is replaced is no value by itself.
+    pub fn feature_value(&self, line: usize) -> Option<(TracedProgram, Stage, usize)> {
+        let Some(Feature::Program(program)) = self.features.get(line)? else { return None };
+        let [[value, _]] = program.replaced.as_slice() else { return None };
+        let file = self.files.iter().position(|file| file.solution.text.contains(value.as_str()))?;
+        let mut texts: Vec<(Stage, String)> =
+            self.files.iter().map(|file| (file.stage.into(), file.solution.text.clone())).collect();
+        let (stage, text) = &mut texts[file];
+        let stage = *stage;
+        // On a line of its own it is told from all else.
+        let (before, behind) = text.split_once(value.as_str())?;
+        let own = before.lines().count() as u32 + 1;
+        *text = format!("{before}\n{value}\n{behind}");
+        let texts: Vec<(Stage, &str)> = texts.iter().map(|(stage, text)| (*stage, text.as_str())).collect();
+        let solution = TracedProgram::new(self, &texts).ok().filter(|_| !value.contains('\n'))?;
+        let sites = solution.stage(stage).sites();
+        let there = || sites.iter().enumerate().filter(|(_, site)| site.line == own);
+        let is_whole = |at: usize| !there().any(|(_, site)| site.operands.contains(&at));
+        let whole: Vec<usize> = there().map(|(at, _)| at).filter(|at| is_whole(*at)).collect();
+        let [site] = whole[..] else { return None };
+        Some((solution, stage, site))
+    }
+
     /// The colour and the position that the solution without a feature computes at each probe.
     pub(crate) fn computed_without(&self, feature: &Feature, probes: &ProbeSet) -> Vec<Computed> {
         let form = match feature {

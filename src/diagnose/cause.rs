@@ -11,7 +11,7 @@ use crate::report::{FrameResult, Hypothesis};
 use glam::{DVec3, DVec4};
 use reference::Assignment;
 use reference::assignment::RubricLine;
-use reference::derived::is_derived;
+use reference::derived::{definition, is_derived};
 use reference::equation::{DISCARDED, Reads};
 use reference::fit::{
     Alternatives, FeatureDefect, FeatureExplanation, Fit, MOST_MISTAKES, TermJudgement, explain_derived, explain_parts,
@@ -46,6 +46,8 @@ pub(super) enum Cause {
     Known {
         constants: Vec<ChangedConstant>,
         found: Vec<FoundMistake>,
+        /// Ids of the lines that derived mistakes cost nothing: the text computes what they judge.
+        spared: Vec<String>,
     },
     /// All is right but for some features, and a known mistake where there is one.
     Parts(FeatureExplanation),
@@ -72,12 +74,12 @@ pub(super) fn cause(evidence: &Evidence<'_>, shape: bool) -> Cause {
     let all_right = is_right(probes, &samples, COLOUR_TOLERANCE);
     if let (true, Some(_), Some(mistake)) = (all_right, evidence.undefined, assignment.undefined_power()) {
         let found = vec![FoundMistake { id: mistake.id.clone(), form: 0, parameter: None }];
-        return Cause::Known { constants: Vec::new(), found };
+        return Cause::known(found);
     }
     let alternatives = Alternatives::new(assignment, probes);
     let program = || program_of(&alternatives, &samples, &is_there(evidence), COLOUR_TOLERANCE);
     if let Some(found) = (!(all_right && shape)).then(program).flatten() {
-        return Cause::Known { constants: Vec::new(), found: vec![found] };
+        return Cause::known(vec![found]);
     }
     if all_right {
         // Right at every probe and in place, but not in the frames: the course's own poses are treated apart.
@@ -92,7 +94,7 @@ pub(super) fn cause(evidence: &Evidence<'_>, shape: bool) -> Cause {
     }
     let constants = constants::changed(evidence.source, assignment);
     if let Some(found) = explained_by(&constants, evidence, &samples) {
-        return Cause::Known { constants, found };
+        return Cause::Known { constants, found, spared: Vec::new() };
     }
     // Numbers that a program lists are known one by one: nothing is looked up, and the course's own light hides what is wrong.
     let is_listed = assignment.files.iter().any(|file| file.program.is_some());
@@ -124,7 +126,7 @@ pub(super) fn cause(evidence: &Evidence<'_>, shape: bool) -> Cause {
         // The course's own poses are treated apart from what explains all others.
         Fit::Explained(found) if frames_agree && hard_coded::leaves_nothing(assignment, &found) => Cause::HardCoded,
         Fit::Explained(found) if found.len() == MOST_MISTAKES && !is_borne_out(evidence, &found) => by_term(),
-        Fit::Explained(found) => Cause::Known { constants: Vec::new(), found },
+        Fit::Explained(found) => Cause::known(found),
         Fit::Unexplained(_) if is_lookup || is_made_for_the_poses() => Cause::HardCoded,
         Fit::Unexplained(_) if is_right(probes, &samples, NEARLY) && evidence.frames.iter().all(is_hardly_off) => {
             Cause::NearlyRight
@@ -151,13 +153,18 @@ fn unexplained(
             // What a lecturer wrote down says more than that a feature is missing.
             let numbers = evidence.numbers();
             if let Some(found) = programs_of(alternatives, samples, &numbers, &is_there(evidence), COLOUR_TOLERANCE) {
-                return Cause::Known { constants: Vec::new(), found };
+                return Cause::known(found);
             }
             if let Some(parts) = parts {
                 return Cause::Parts(parts);
             }
         }
     }
+    // What the text itself becomes right by says more than a change of the solution that the text does not bear out.
+    let doubtful = match derived(evidence, samples) {
+        Some(cause) if !cause.is_contradicted(evidence) => return cause,
+        doubtful => doubtful,
+    };
     let (findings, repairs) = inside::account(evidence);
     let terms = match judge_factor(assignment, probes, samples, COLOUR_TOLERANCE) {
         Some(terms) => terms,
@@ -169,10 +176,11 @@ fn unexplained(
             spared(evidence, addends::credit(evidence, terms), &findings)
         }
     };
-    let repairs = repairs.into_iter().map(|repaired| (charged(assignment, &terms, &repaired), repaired));
+    let wrong = if repairs.is_empty() { terms.clone() } else { computed(evidence, terms.clone()) };
+    let repairs = repairs.into_iter().map(|repaired| (charged(assignment, &wrong, &repaired), repaired));
     let repairs: Vec<(Vec<String>, Repaired)> = repairs.collect();
     if repairs.is_empty() || repairs.iter().any(|(lines, _)| lines.is_empty()) {
-        return Cause::Unexplained { terms, findings };
+        return doubtful.unwrap_or(Cause::Unexplained { terms, findings });
     }
     Cause::Repaired(repairs)
 }
@@ -210,7 +218,8 @@ fn derived(evidence: &Evidence<'_>, samples: &[[f64; 3]]) -> Option<Cause> {
     let explained = |assignment: &Assignment, probes: &ProbeSet, constants: Vec<ChangedConstant>| {
         let found = explain_derived(assignment, probes, samples, &is_there(evidence), COLOUR_TOLERANCE)?;
         let is_borne_out = plain::is_borne_out(assignment, evidence.source, &found);
-        let cause = Cause::Known { constants, found };
+        let spared = spared_by_text(evidence, &found);
+        let cause = Cause::Known { constants, found, spared };
         (is_borne_out && !cause.is_refuted(evidence)).then_some(cause)
     };
     if let Some(changed) = with_constants(evidence.assignment, &constants).filter(|_| !constants.is_empty()) {
@@ -220,6 +229,33 @@ fn derived(evidence: &Evidence<'_>, samples: &[[f64; 3]]) -> Option<Cause> {
         }
     }
     explained(evidence.assignment, evidence.probes, Vec::new())
+}
+
+/// The ids of the lines that derived mistakes cost nothing, for the text computes what they judge; none where these are all.
+fn spared_by_text(evidence: &Evidence<'_>, found: &[FoundMistake]) -> Vec<String> {
+    let assignment = evidence.assignment;
+    if assignment.equation.reads() != Reads::Outputs || !found.iter().all(|found| is_derived(&found.id)) {
+        return Vec::new();
+    }
+    let spared = inside::computed_lines(evidence);
+    let costs = |line: &&RubricLine| found.iter().any(|found| assignment.keeps(found, line) < 1.0);
+    let is_all = assignment.rubric.iter().filter(costs).all(|line| spared.contains(&line.id));
+    if is_all { Vec::new() } else { spared }
+}
+
+/// The judgements; right are also the lines of which the text computes what they judge, unless these are all.
+fn computed(evidence: &Evidence<'_>, terms: Vec<TermJudgement>) -> Vec<TermJudgement> {
+    if evidence.assignment.equation.reads() != Reads::Outputs {
+        return terms;
+    }
+    let lines = inside::computed_lines(evidence);
+    let judged = evidence.samples.len();
+    let credited = terms.iter().map(|term| match lines.contains(&term.line) {
+        true => TermJudgement::right(&term.line, judged),
+        false => term.clone(),
+    });
+    let credited: Vec<TermJudgement> = credited.collect();
+    if credited.iter().all(TermJudgement::is_right) { terms } else { credited }
 }
 
 /// Whether a sample has a given position, but for the factor that all have in common where they are right.
@@ -270,6 +306,10 @@ fn explained_by(
 }
 
 impl Cause {
+    fn known(found: Vec<FoundMistake>) -> Self {
+        Self::Known { constants: Vec::new(), found, spared: Vec::new() }
+    }
+
     /// The cause; a lookup where the shader does something else at probes that nobody knows beforehand.
     pub(super) fn unless_refuted(self, evidence: &Evidence<'_>) -> Self {
         match self {
@@ -294,10 +334,10 @@ impl Cause {
         match self {
             // What an undefined power gives depends on the driver.
             Self::Known { .. } if evidence.undefined.is_some() => false,
-            Self::Known { constants, found } if constants.is_empty() => {
+            Self::Known { constants, found, .. } if constants.is_empty() => {
                 fresh.refutes(assignment, found, COLOUR_TOLERANCE)
             }
-            Self::Known { constants, found } => with_constants(assignment, constants).is_some_and(|assignment| {
+            Self::Known { constants, found, .. } => with_constants(assignment, constants).is_some_and(|assignment| {
                 let probes = assignment.reprobe(fresh.probes);
                 Fresh { probes: &probes, ..fresh }.refutes(&assignment, found, COLOUR_TOLERANCE)
             }),
@@ -321,6 +361,14 @@ impl Cause {
             // Nothing is ever written.
             None => Self::Unexplained { terms: Vec::new(), findings: Vec::new() },
         }
+    }
+
+    /// Whether the text computes right what a derived mistake would have wrong, where only all together is seen.
+    fn is_contradicted(&self, evidence: &Evidence<'_>) -> bool {
+        let Self::Known { found, .. } = self else { return false };
+        let mut definitions = found.iter().filter_map(|found| definition(&found.id));
+        evidence.assignment.equation.reads() == Reads::Outputs
+            && definitions.any(|name| inside::computes(evidence, name))
     }
 
     /// Whether the homework says what it is worth.
@@ -367,7 +415,7 @@ impl Cause {
     pub(super) fn ids(&self) -> Vec<String> {
         match self {
             Self::Right => Vec::new(),
-            Self::Known { constants, found } => {
+            Self::Known { constants, found, .. } => {
                 let changed = (!constants.is_empty()).then(|| CONSTANTS_CHANGED.to_owned());
                 changed.into_iter().chain(found.iter().map(|mistake| mistake.id.clone())).collect()
             }
@@ -418,6 +466,7 @@ pub(super) fn kept(assignment: &Assignment, line: &RubricLine, shape: bool, caus
         (Cause::Known { constants, .. }, CONSTANTS_CHANGED) => {
             constants.iter().any(|changed| belongs(assignment, &changed.name, line))
         }
+        (Cause::Known { spared, .. }, id) if is_derived(id) && spared.contains(&line.id) => false,
         (Cause::Known { found, .. } | Cause::Parts(FeatureExplanation { found, .. }), _)
             if let Some(found) = found.iter().find(|found| found.id == id) =>
         {

@@ -109,6 +109,16 @@ pub(super) fn find_one(
     findings.into_iter().next()
 }
 
+/// Whether the text computes what the right answer computes by this name, on the way of what is seen.
+pub(super) fn computes(evidence: &Evidence<'_>, definition: &str) -> bool {
+    within(evidence, evidence.assignment, &[], &[], |search| search.computes(definition)).unwrap_or_default()
+}
+
+/// The ids of the rubric's lines of which the text computes the very value that they judge, on the way of what is seen.
+pub(super) fn computed_lines(evidence: &Evidence<'_>) -> Vec<String> {
+    within(evidence, evidence.assignment, &[], &[], |search| search.computed_lines()).unwrap_or_default()
+}
+
 /// The one place that all is mended at, where there is such a place.
 pub(super) fn only(evidence: &Evidence<'_>, assignment: &Assignment) -> Option<Finding> {
     let findings = within(evidence, assignment, &[], &[], |search| search.findings())?;

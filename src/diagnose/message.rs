@@ -109,7 +109,7 @@ pub(super) struct Facts {
 impl Facts {
     pub fn of(evidence: &Evidence<'_>, cause: &Cause) -> Self {
         let (changed, found): (&[ChangedConstant], &[FoundMistake]) = match cause {
-            Cause::Known { constants, found } => (constants, found),
+            Cause::Known { constants, found, .. } => (constants, found),
             _ => (&[], &[]),
         };
         let values: Vec<_> = changed.iter().map(|constant| (constant.name.as_str(), constant.found.clone())).collect();
@@ -127,7 +127,7 @@ impl Facts {
         let places = sought.iter().enumerate().map(|(index, mistake)| (mistake.id.clone(), place(index))).collect();
         let findings = match cause {
             // Everything stands where it should not, and nothing else is wrong.
-            Cause::Known { constants, found } if constants.is_empty() && found.is_empty() => inside::find(evidence),
+            Cause::Known { constants, found, .. } if constants.is_empty() && found.is_empty() => inside::find(evidence),
             Cause::Right | Cause::Parts(_) | Cause::NearlyRight => inside::find(evidence),
             Cause::Known { .. } | Cause::HardCoded | Cause::NothingDrawn | Cause::Repaired(_) => Vec::new(),
             Cause::Unexplained { findings, .. } => findings.clone(),

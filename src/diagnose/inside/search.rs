@@ -1,5 +1,6 @@
 //! Which value has to be another one for all that is seen to be right.
 
+use super::quantities::{Quantity, made_of};
 use super::walk::{Suspect, suspects};
 use super::*;
 use crate::diagnose::columns::{ScalarColumns, fits, is_constant, is_number, is_same, shaped};
@@ -69,6 +70,40 @@ impl Search<'_, '_> {
 
     pub fn trace(&self, stage: Stage) -> Option<&Trace> {
         self.traces[stage as usize].as_ref()
+    }
+
+    /// Whether values on the way of what is seen are what the right answer computes by this name, in each stage that has it.
+    pub fn computes(&self, definition: &str) -> bool {
+        let is_it = |own: &Quantity| own.names.iter().any(|name| name == definition);
+        let has_it = |stage: &Stage| self.quantities.all.iter().any(|own| own.stage == *stage && is_it(own));
+        let is_computed = |stage: Stage| {
+            let Some(trace) = self.trace(stage) else { return false };
+            let roots: Vec<usize> = trace.outputs.iter().flatten().copied().collect();
+            let mut way = made_of(trace, &roots).into_iter();
+            way.any(|event| self.quantities.equal_to(stage, &trace.events[event]).is_some_and(is_it))
+        };
+        let stages: Vec<Stage> = [Stage::Vertex, Stage::Fragment].into_iter().filter(has_it).collect();
+        !stages.is_empty() && stages.into_iter().all(is_computed)
+    }
+
+    /// The ids of the rubric's lines of which the text computes the value that a solution without them lacks.
+    pub fn computed_lines(&self) -> Vec<String> {
+        let rubric = self.assignment.rubric.iter().enumerate();
+        rubric.filter(|(line, _)| self.computes_feature(*line) == Some(true)).map(|(_, line)| line.id.clone()).collect()
+    }
+
+    fn computes_feature(&self, line: usize) -> Option<bool> {
+        let (solution, stage, site) = self.assignment.feature_value(line)?;
+        let mut bench = Bench::new(self.assignment, &solution, self.places, self.in_quads, FUEL_OF_TRACE)?;
+        let (_, traces) = bench.trace(&StageChanges::default())?;
+        let mut events = traces[stage as usize].as_ref()?.events.iter().filter(|event| event.site == site);
+        let (right, None) = (events.next()?, events.next()) else { return None };
+        let own = self.trace(stage)?;
+        let roots: Vec<usize> = own.outputs.iter().flatten().copied().collect();
+        let is_there = |event: &Event| event.lanes.iter().zip(&right.lanes).all(|(own, right)| *own || !right);
+        let is_it = |event: &Event| is_there(event) && is_same(event, &right.values);
+        let is_way = made_of(own, &roots).into_iter().any(|event| is_it(&own.events[event]));
+        Some(!is_constant(&right.values) && is_way)
     }
 
     /// The suspects of a stage.
