@@ -134,7 +134,7 @@ pub fn diagnose(evidence: &Evidence<'_>) -> Diagnosis {
     let course = course(evidence, mistakes.is_empty());
     mistakes.extend(course.filter(|id| !mistakes.iter().any(|other| share_a_line(evidence.assignment, id, other))));
     let lines = &evidence.assignment.rubric;
-    let facts = if mistakes.is_empty() { Facts::default() } else { Facts::of(evidence, &cause) };
+    let facts = if mistakes.is_empty() { Facts::default() } else { Facts::of(evidence, &cause, &mistakes) };
     let judged = lines.iter().map(|line| judge(evidence, &facts, line, shape, &cause, &mistakes));
     let rubric: Vec<RubricLine> = judged.collect();
     let advice = if mistakes.is_empty() && evidence.hints > Hints::None { advice::find(evidence) } else { Vec::new() };

@@ -5,6 +5,7 @@
 //! it is made of, as far as that is not right yet. Where one of these values is replaced by a right quantity, and everything
 //! that is seen becomes right by that, there the mistake stands. A value that is right whatever it is called, is never accused.
 
+mod abrupt;
 mod additive;
 mod blame;
 mod finding;
@@ -21,6 +22,7 @@ use super::columns::is_colour;
 use super::locate::{Located, MistakeOrigin, is_handed_out};
 use super::trials::{FUEL_OF_TRACE, StageChanges, Trials, chosen, is_drawn, place};
 use crate::compare::POSITION_TOLERANCE;
+pub(super) use abrupt::decision;
 use glam::DVec3;
 pub(super) use own_values::own_values;
 use quantities::Quantities;

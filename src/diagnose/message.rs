@@ -107,7 +107,7 @@ pub(super) struct Facts {
 }
 
 impl Facts {
-    pub fn of(evidence: &Evidence<'_>, cause: &Cause) -> Self {
+    pub fn of(evidence: &Evidence<'_>, cause: &Cause, mistakes: &[String]) -> Self {
         let (changed, found): (&[ChangedConstant], &[FoundMistake]) = match cause {
             Cause::Known { constants, found, .. } => (constants, found),
             _ => (&[], &[]),
@@ -124,7 +124,12 @@ impl Facts {
         };
         // What is known number by number need not be looked for.
         let sought = if wrong.is_some() { &[] } else { found };
-        let places = sought.iter().enumerate().map(|(index, mistake)| (mistake.id.clone(), place(index))).collect();
+        let mut places: Vec<_> =
+            sought.iter().enumerate().map(|(index, mistake)| (mistake.id.clone(), place(index))).collect();
+        let is_found = |id: &&String| mistakes.contains(id) && !places.iter().any(|(known, _)| known == *id);
+        if let Some(id) = evidence.assignment.gradual.as_ref().map(|gradual| &gradual.abrupt).filter(is_found) {
+            places.push((id.clone(), inside::decision(evidence)));
+        }
         let findings = match cause {
             // Everything stands where it should not, and nothing else is wrong.
             Cause::Known { constants, found, .. } if constants.is_empty() && found.is_empty() => inside::find(evidence),
@@ -194,6 +199,9 @@ impl<'f> Blanks<'f> {
                 let store = evidence.traced.and_then(locate::last_position).map(Located::at);
                 let moved = facts.findings.iter().find(|finding| finding.touches_position);
                 blanks.place(evidence, mistake, moved.map(Finding::located).or(store));
+            }
+            (_, id) if evidence.assignment.gradual.as_ref().is_some_and(|gradual| gradual.abrupt == id) => {
+                blanks.place(evidence, mistake, facts.place(id).cloned());
             }
             (Cause::Known { constants, .. }, super::CONSTANTS_CHANGED) => {
                 let of_line = |changed: &&ChangedConstant| super::belongs(evidence.assignment, &changed.name, line);
