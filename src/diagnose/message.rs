@@ -7,7 +7,7 @@ use super::constants::ChangedConstant;
 use super::inside::{self, Finding};
 use super::listed::Listed;
 use super::locate::{self, Located, MistakeOrigin, TracedProbes, Words, is_handed_out};
-use super::{Cause, Evidence, Hints};
+use super::{Cause, Evidence, Hints, addends};
 use crate::language::Text;
 use crate::report::FrameResult;
 use crate::source::Source;
@@ -39,7 +39,9 @@ pub(super) fn tell(
         .map(|mistake| of_mistake(evidence, facts, line, cause, mistake))
         .collect();
     if told.is_empty() {
-        return Told { text: agreement(evidence, line), line: None, file: None };
+        let is_unseen = facts.is_finite_nowhere && !evidence.assignment.judges_position(line);
+        let text = if is_unseen { unseen() } else { agreement(evidence, line) };
+        return Told { text, line: None, file: None };
     }
     let join = |language: fn(&Text) -> &String, space| {
         told.iter().map(|told| language(&told.text).as_str()).collect::<Vec<_>>().join(space)
@@ -104,6 +106,8 @@ pub(super) struct Facts {
     listed: Vec<(String, Listed)>,
     /// All that are wrong.
     wrong: Option<Listed>,
+    /// Whether no colour is a number, so that nothing shows by itself.
+    is_finite_nowhere: bool,
 }
 
 impl Facts {
@@ -144,7 +148,8 @@ impl Facts {
             let symbol = definition.symbol.clone();
             names.extend(own.map(|own| format!("`{own}`")).or(symbol).map(|name| (definition.name.clone(), name)));
         }
-        Self { places, names, findings, listed, wrong }
+        let is_finite_nowhere = addends::is_finite_nowhere(evidence);
+        Self { places, names, findings, listed, wrong, is_finite_nowhere }
     }
 
     /// The names of the handed-out file that the student's still has.
@@ -360,6 +365,14 @@ fn number(value: f64) -> String {
     let rounded = (value * 1000.0).round() / 1000.0;
     // No minus before a zero.
     format!("{}", if rounded == 0.0 { 0.0 } else { rounded })
+}
+
+/// What is said of a line that costs nothing where no colour is a number.
+fn unseen() -> Text {
+    Text::new(
+        "No colour is a number, so that it cannot be seen by itself. No mistake was found in it in the text.",
+        "どの色も数値になっていないので、この項だけを色から確かめることはできません。シェーダの中では、この項に間違いは見つかりませんでした。",
+    )
 }
 
 /// Right answers get more than silence.

@@ -108,8 +108,12 @@ pub(super) fn place<'e>(evidence: &Evidence<'e>, at: usize) -> Place<'e> {
     Place { probe, uniforms: evidence.probes.uniforms(probe) }
 }
 
-/// Whether the driver computed these colours at the chosen probes: what it computed is what is judged.
+/// Whether the driver computed these colours at the chosen probes: what it computed is what is judged. What is no number may become
+/// any colour there; of a power the line is known.
 pub(super) fn is_drawn(evidence: &Evidence<'_>, chosen: &[usize], colours: &[DVec3]) -> bool {
-    let is_one = |(at, colour): (&usize, &DVec3)| is_colour(DVec3::from(evidence.samples[*at].colour_f64()), *colour);
+    let is_open = |colour: &DVec3| colour.is_nan() && evidence.undefined.is_none();
+    let is_one = |(at, colour): (&usize, &DVec3)| {
+        is_open(colour) || is_colour(DVec3::from(evidence.samples[*at].colour_f64()), *colour)
+    };
     chosen.iter().zip(colours).all(is_one)
 }
