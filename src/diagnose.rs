@@ -27,6 +27,7 @@ pub use fresh::Fresh;
 use message::Facts;
 use reference::Assignment;
 use reference::assignment::Stage;
+use reference::equation::DISCARDED;
 use reference::probes::{Crossings, EdgeDefect, Pictured, Probe, ProbeSet};
 use reference::traced::TracedProgram;
 
@@ -236,8 +237,12 @@ fn shape_agrees(evidence: &Evidence<'_>, probes: &ComparedProbes) -> bool {
     let scale = position_scale(evidence);
     let is_elsewhere =
         |probe: &Probe, sample: &Sample| position_difference(probe.position, sample, scale) > POSITION_TOLERANCE;
+    // What is thrown away leaves holes in what is drawn, and moves nothing.
+    let is_gone =
+        |(probe, sample): (&Probe, &Sample)| probe.colour != DISCARDED && DISCARDED == sample.colour_f64().into();
+    let has_holes = evidence.probes.iter().zip(evidence.samples).any(is_gone);
     probes.positions_agree
-        && evidence.frames.iter().all(FrameResult::shape_agrees)
+        && (has_holes || evidence.frames.iter().all(FrameResult::shape_agrees))
         && !evidence.fresh.refutes_each(is_elsewhere)
 }
 

@@ -15,6 +15,7 @@ use crate::translate::NO_LINE;
 use reference::assignment::RubricLine;
 use reference::equation::DISCARDED;
 use reference::fit::{FeatureDefect, FeatureExplanation, Worst};
+use reference::interpreter::Stage;
 use reference::mistake::{Condition, FoundMistake, Mistake};
 
 /// A message and the line of the student's file that it speaks of.
@@ -201,7 +202,8 @@ impl<'f> Blanks<'f> {
         }
         match (cause, mistake.id.as_str()) {
             (_, super::POSITION_CHANGED) => {
-                let store = evidence.traced.and_then(locate::last_position).map(Located::at);
+                let store = evidence.traced.and_then(locate::last_position);
+                let store = store.map(|line| Located { stage: Some(Stage::Vertex), ..Located::at(line) });
                 let moved = facts.findings.iter().find(|finding| finding.touches_position);
                 blanks.place(evidence, mistake, moved.map(Finding::located).or(store));
             }
