@@ -7,9 +7,12 @@ use std::fmt::Write;
 pub const DESCRIPTION: usize = 16;
 /// Which word of a description says where its texels begin.
 const FIRST: usize = 3;
+/// Which one holds the flags.
+const FLAGS: usize = 4;
 /// Flags of a description.
 const MAGNIFY_LINEAR: u32 = 1;
 const MINIFY_LINEAR: u32 = 2;
+const FILTERS: u32 = MAGNIFY_LINEAR | MINIFY_LINEAR;
 const BYTES: u32 = 1 << 12;
 const DEPTHS: u32 = 1 << 13;
 const CLAMPS_REFERENCE: u32 = 1 << 20;
@@ -101,6 +104,10 @@ impl CommonTexture {
     /// What stands before `textures.glsl` to say so.
     pub(super) fn preamble(&self) -> String {
         let mut text = format!("#define ALIKE\n#define STRIDE {}u\n", self.stride);
+        // Both filters alike: no level of detail is looked at.
+        if let 0 | FILTERS = self.first[FLAGS] & FILTERS {
+            text += "#define ONE_FILTER\n";
+        }
         for (name, word) in NAMES.iter().zip(self.first) {
             let _ = writeln!(text, "#define {name} {word}u");
         }

@@ -215,11 +215,15 @@ float detail_along(const uint unit, const vec4 along_x, const vec4 along_y, cons
 }
 
 float detail_here(const uint unit, const vec4 at, const int mode) {
+#ifdef ONE_FILTER
+    return 0.0;
+#else
     // Both filters alike: nothing depends on it.
     uint both = described(unit, FLAGS) & (MAGNIFY_LINEAR | MINIFY_LINEAR);
     vec4 along_x = dFdx(at);
     vec4 along_y = dFdy(at);
     return both == 1u || both == 2u ? detail_along(unit, along_x, along_y, mode) : 0.0;
+#endif
 }
 
 void main() {
