@@ -1,4 +1,7 @@
-//! Why the colours are as they are, and what that leaves of each line's points.
+//! Why the colours are as they are.
+
+mod spared;
+mod worth;
 
 use super::constants::{self, ChangedConstant};
 use super::inside::{self, Finding, Repaired};
@@ -10,15 +13,16 @@ use crate::render::Sample;
 use crate::report::{FrameResult, Hypothesis};
 use glam::{DVec3, DVec4};
 use reference::Assignment;
-use reference::assignment::RubricLine;
 use reference::derived::{definition, is_derived};
 use reference::equation::{DISCARDED, Reads};
 use reference::fit::{
-    Alternatives, FeatureDefect, FeatureExplanation, Fit, MOST_MISTAKES, TermJudgement, explain_derived, explain_parts,
-    is_right, judge_factor, judge_features, judge_terms, program_of, programs_of,
+    Alternatives, FeatureExplanation, Fit, MOST_MISTAKES, TermJudgement, explain_derived, explain_parts, is_right,
+    judge_factor, judge_features, judge_terms, program_of, programs_of,
 };
 use reference::mistake::{FoundMistake, Mistake};
 use reference::probes::ProbeSet;
+
+pub use worth::{belongs, kept};
 
 const HARD_CODED: &str = "hard-coded";
 /// Nothing that is known explains a wrong answer.
@@ -173,43 +177,16 @@ fn unexplained(
                 terms.retain(|term| term.line != feature.line);
                 terms.push(feature);
             }
-            spared(evidence, addends::credit(evidence, terms), &findings)
+            spared::beside(evidence, addends::credit(evidence, terms), &findings)
         }
     };
-    let wrong = if repairs.is_empty() { terms.clone() } else { computed(evidence, terms.clone()) };
-    let repairs = repairs.into_iter().map(|repaired| (charged(assignment, &wrong, &repaired), repaired));
+    let wrong = if repairs.is_empty() { terms.clone() } else { spared::computed(evidence, terms.clone()) };
+    let repairs = repairs.into_iter().map(|repaired| (worth::charged(assignment, &wrong, &repaired), repaired));
     let repairs: Vec<(Vec<String>, Repaired)> = repairs.collect();
     if repairs.is_empty() || repairs.iter().any(|(lines, _)| lines.is_empty()) {
         return doubtful.unwrap_or(Cause::Unexplained { terms, findings });
     }
     Cause::Repaired(repairs)
-}
-
-/// The judgements; right are also the terms that no place of a mistake has to do with: with the right values in these places,
-/// everything is right.
-fn spared(evidence: &Evidence<'_>, terms: Vec<TermJudgement>, findings: &[Finding]) -> Vec<TermJudgement> {
-    let assignment = evidence.assignment;
-    let is_touched = |term: &TermJudgement| {
-        let line = assignment.rubric.iter().find(|line| line.id == term.line);
-        line.is_some_and(|line| findings.iter().any(|finding| finding.touches.contains(&line.judges)))
-    };
-    // Of a program of no definitions it is not known what a value has to do with. All that is seen has to do with everything.
-    let is_known = assignment.equation.reads() != Reads::Outputs && !findings.iter().any(|finding| finding.is_whole);
-    if !is_known || !terms.iter().any(is_touched) {
-        return terms;
-    }
-    let judged = evidence.samples.len();
-    let worst = terms.iter().find_map(|term| term.worst);
-    let is_any_wrong = terms.iter().any(|term| is_touched(term) && !term.is_right());
-    let spared = terms.iter().map(|term| match is_touched(term) {
-        false => TermJudgement::right(&term.line, judged),
-        // What is wrong may not show where the term stands alone.
-        true if !is_any_wrong => {
-            TermJudgement { matched: judged.saturating_sub(1), worst, ..TermJudgement::right(&term.line, judged) }
-        }
-        true => term.clone(),
-    });
-    spared.collect()
 }
 
 /// The derived mistakes that explain the samples, also those that nobody knows beforehand; perhaps on top of changed constants.
@@ -218,7 +195,7 @@ fn derived(evidence: &Evidence<'_>, samples: &[[f64; 3]]) -> Option<Cause> {
     let explained = |assignment: &Assignment, probes: &ProbeSet, constants: Vec<ChangedConstant>| {
         let found = explain_derived(assignment, probes, samples, &is_there(evidence), COLOUR_TOLERANCE)?;
         let is_borne_out = plain::is_borne_out(assignment, evidence.source, &found);
-        let spared = spared_by_text(evidence, &found);
+        let spared = spared::by_text(evidence, &found);
         let cause = Cause::Known { constants, found, spared };
         (is_borne_out && !cause.is_refuted(evidence)).then_some(cause)
     };
@@ -229,33 +206,6 @@ fn derived(evidence: &Evidence<'_>, samples: &[[f64; 3]]) -> Option<Cause> {
         }
     }
     explained(evidence.assignment, evidence.probes, Vec::new())
-}
-
-/// The ids of the lines that derived mistakes cost nothing, for the text computes what they judge; none where these are all.
-fn spared_by_text(evidence: &Evidence<'_>, found: &[FoundMistake]) -> Vec<String> {
-    let assignment = evidence.assignment;
-    if assignment.equation.reads() != Reads::Outputs || !found.iter().all(|found| is_derived(&found.id)) {
-        return Vec::new();
-    }
-    let spared = inside::computed_lines(evidence);
-    let costs = |line: &&RubricLine| found.iter().any(|found| assignment.keeps(found, line) < 1.0);
-    let is_all = assignment.rubric.iter().filter(costs).all(|line| spared.contains(&line.id));
-    if is_all { Vec::new() } else { spared }
-}
-
-/// The judgements; right are also the lines of which the text computes what they judge, unless these are all.
-fn computed(evidence: &Evidence<'_>, terms: Vec<TermJudgement>) -> Vec<TermJudgement> {
-    if evidence.assignment.equation.reads() != Reads::Outputs {
-        return terms;
-    }
-    let lines = inside::computed_lines(evidence);
-    let judged = evidence.samples.len();
-    let credited = terms.iter().map(|term| match lines.contains(&term.line) {
-        true => TermJudgement::right(&term.line, judged),
-        false => term.clone(),
-    });
-    let credited: Vec<TermJudgement> = credited.collect();
-    if credited.iter().all(TermJudgement::is_right) { terms } else { credited }
 }
 
 /// Whether a sample has a given position, but for the factor that all have in common where they are right.
@@ -421,7 +371,7 @@ impl Cause {
             }
             Self::Parts(FeatureExplanation { found, parts }) => {
                 let mut ids: Vec<String> = found.iter().map(|found| found.id.clone()).collect();
-                let kinds = parts.iter().map(|(_, part)| part_id(*part).to_owned());
+                let kinds = parts.iter().map(|(_, part)| worth::part_id(*part).to_owned());
                 ids.extend(kinds);
                 ids.dedup();
                 ids
@@ -437,63 +387,4 @@ impl Cause {
             Self::Unexplained { .. } => vec![UNEXPLAINED.into()],
         }
     }
-}
-
-/// What is said of a feature.
-const fn part_id(part: FeatureDefect) -> &'static str {
-    match part {
-        FeatureDefect::Missing => PART_MISSING,
-        FeatureDefect::Factor(_) => PART_SCALED,
-    }
-}
-
-/// Fraction of the line's points that the mistake leaves in this answer.
-pub(super) fn kept(assignment: &Assignment, line: &RubricLine, shape: bool, cause: &Cause, id: &str) -> f64 {
-    let is_touched = match (cause, id) {
-        (_, POSITION_CHANGED) => !shape && assignment.judges_position(line),
-        // What cannot be judged by itself is not known to be right.
-        (Cause::Unexplained { terms, .. }, UNEXPLAINED) => terms
-            .iter()
-            .find(|term| term.line == line.id)
-            .map_or(!assignment.judges_position(line), |term| !term.is_right()),
-        (Cause::Parts(FeatureExplanation { parts, .. }), PART_MISSING | PART_SCALED) => {
-            parts.iter().any(|(at, part)| assignment.rubric[*at].id == line.id && part_id(*part) == id)
-        }
-        (Cause::Repaired(repairs), _) if repairs.iter().any(|(_, repaired)| repaired.mistake.id == id) => {
-            let own = repairs.iter().filter(|(lines, repaired)| repaired.mistake.id == id && lines.contains(&line.id));
-            return own.map(|(_, repaired)| repaired.mistake.keeps(&line.id)).fold(1.0, f64::min);
-        }
-        (Cause::Known { constants, .. }, CONSTANTS_CHANGED) => {
-            constants.iter().any(|changed| belongs(assignment, &changed.name, line))
-        }
-        (Cause::Known { spared, .. }, id) if is_derived(id) && spared.contains(&line.id) => false,
-        (Cause::Known { found, .. } | Cause::Parts(FeatureExplanation { found, .. }), _)
-            if let Some(found) = found.iter().find(|found| found.id == id) =>
-        {
-            return assignment.keeps(found, line);
-        }
-        _ => true,
-    };
-    if is_touched { assignment.mistake(id).map_or(1.0, |mistake| mistake.keeps(&line.id)) } else { 1.0 }
-}
-
-/// The lines that a repaired mistake costs points: those of which it spoils what they judge, but for terms that are right by
-/// themselves. Where it spoils none of these, such as a sum, all that are not right.
-fn charged(assignment: &Assignment, terms: &[TermJudgement], repaired: &Repaired) -> Vec<String> {
-    let is_wrong = |line: &&RubricLine| terms.iter().any(|term| term.line == line.id && !term.is_right());
-    let is_spoilt = |line: &&RubricLine| repaired.touches.contains(&line.judges);
-    let is_colour = |line: &&RubricLine| !assignment.judges_position(line);
-    let lines = || assignment.rubric.iter().filter(is_colour);
-    let choices: [Vec<&RubricLine>; 3] = [
-        lines().filter(|line| is_wrong(line) && is_spoilt(line)).collect(),
-        lines().filter(is_wrong).collect(),
-        lines().filter(is_spoilt).collect(),
-    ];
-    let chosen = choices.into_iter().find(|lines| !lines.is_empty()).unwrap_or_default();
-    chosen.into_iter().map(|line| line.id.clone()).collect()
-}
-
-/// Whether the constant is one of the line's.
-pub(super) fn belongs(assignment: &Assignment, constant: &str, line: &RubricLine) -> bool {
-    assignment.constants.iter().any(|known| known.name == constant && known.line == line.id)
 }

@@ -1,0 +1,67 @@
+//! What a cause leaves of each line's points.
+
+use super::{CONSTANTS_CHANGED, Cause, PART_MISSING, PART_SCALED, POSITION_CHANGED, UNEXPLAINED};
+use crate::diagnose::inside::Repaired;
+use reference::Assignment;
+use reference::assignment::RubricLine;
+use reference::derived::is_derived;
+use reference::fit::{FeatureDefect, FeatureExplanation, TermJudgement};
+
+/// What is said of a feature.
+pub(super) const fn part_id(part: FeatureDefect) -> &'static str {
+    match part {
+        FeatureDefect::Missing => PART_MISSING,
+        FeatureDefect::Factor(_) => PART_SCALED,
+    }
+}
+
+/// Fraction of the line's points that the mistake leaves in this answer.
+pub fn kept(assignment: &Assignment, line: &RubricLine, shape: bool, cause: &Cause, id: &str) -> f64 {
+    let is_touched = match (cause, id) {
+        (_, POSITION_CHANGED) => !shape && assignment.judges_position(line),
+        // What cannot be judged by itself is not known to be right.
+        (Cause::Unexplained { terms, .. }, UNEXPLAINED) => terms
+            .iter()
+            .find(|term| term.line == line.id)
+            .map_or(!assignment.judges_position(line), |term| !term.is_right()),
+        (Cause::Parts(FeatureExplanation { parts, .. }), PART_MISSING | PART_SCALED) => {
+            parts.iter().any(|(at, part)| assignment.rubric[*at].id == line.id && part_id(*part) == id)
+        }
+        (Cause::Repaired(repairs), _) if repairs.iter().any(|(_, repaired)| repaired.mistake.id == id) => {
+            let own = repairs.iter().filter(|(lines, repaired)| repaired.mistake.id == id && lines.contains(&line.id));
+            return own.map(|(_, repaired)| repaired.mistake.keeps(&line.id)).fold(1.0, f64::min);
+        }
+        (Cause::Known { constants, .. }, CONSTANTS_CHANGED) => {
+            constants.iter().any(|changed| belongs(assignment, &changed.name, line))
+        }
+        (Cause::Known { spared, .. }, id) if is_derived(id) && spared.contains(&line.id) => false,
+        (Cause::Known { found, .. } | Cause::Parts(FeatureExplanation { found, .. }), _)
+            if let Some(found) = found.iter().find(|found| found.id == id) =>
+        {
+            return assignment.keeps(found, line);
+        }
+        _ => true,
+    };
+    if is_touched { assignment.mistake(id).map_or(1.0, |mistake| mistake.keeps(&line.id)) } else { 1.0 }
+}
+
+/// The lines that a repaired mistake costs points: those of which it spoils what they judge, but for terms that are right by
+/// themselves. Where it spoils none of these, such as a sum, all that are not right.
+pub(super) fn charged(assignment: &Assignment, terms: &[TermJudgement], repaired: &Repaired) -> Vec<String> {
+    let is_wrong = |line: &&RubricLine| terms.iter().any(|term| term.line == line.id && !term.is_right());
+    let is_spoilt = |line: &&RubricLine| repaired.touches.contains(&line.judges);
+    let is_colour = |line: &&RubricLine| !assignment.judges_position(line);
+    let lines = || assignment.rubric.iter().filter(is_colour);
+    let choices: [Vec<&RubricLine>; 3] = [
+        lines().filter(|line| is_wrong(line) && is_spoilt(line)).collect(),
+        lines().filter(is_wrong).collect(),
+        lines().filter(is_spoilt).collect(),
+    ];
+    let chosen = choices.into_iter().find(|lines| !lines.is_empty()).unwrap_or_default();
+    chosen.into_iter().map(|line| line.id.clone()).collect()
+}
+
+/// Whether the constant is one of the line's.
+pub fn belongs(assignment: &Assignment, constant: &str, line: &RubricLine) -> bool {
+    assignment.constants.iter().any(|known| known.name == constant && known.line == line.id)
+}
