@@ -137,7 +137,7 @@ impl Equation {
     }
 
     /// Whether the value of the definition `of` depends on that of `on`, or is it.
-    pub(crate) fn depends(&self, of: usize, on: usize) -> bool {
+    pub fn depends(&self, of: usize, on: usize) -> bool {
         let used = || self.used(&self.definitions[of].formula);
         of == on || used().any(|used| self.depends(used, on))
     }

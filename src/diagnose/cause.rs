@@ -130,6 +130,7 @@ pub(super) fn cause(evidence: &Evidence<'_>, shape: bool) -> Cause {
         // The course's own poses are treated apart from what explains all others.
         Fit::Explained(found) if frames_agree && hard_coded::leaves_nothing(assignment, &found) => Cause::HardCoded,
         Fit::Explained(found) if found.len() == MOST_MISTAKES && !is_borne_out(evidence, &found) => by_term(),
+        Fit::Explained(found) if is_dark(evidence.samples) && stands_elsewhere(evidence, &found) => by_term(),
         Fit::Explained(found) => Cause::known(found),
         Fit::Unexplained(_) if is_lookup || is_made_for_the_poses() => Cause::HardCoded,
         Fit::Unexplained(_) if is_right(probes, &samples, NEARLY) && evidence.frames.iter().all(is_hardly_off) => {
@@ -165,7 +166,7 @@ fn unexplained(
         }
     }
     // What the text itself becomes right by says more than a change of the solution that the text does not bear out.
-    let doubtful = match derived(evidence, samples) {
+    let doubtful = match (!is_dark(evidence.samples)).then(|| derived(evidence, samples)).flatten() {
         Some(cause) if !cause.is_contradicted(evidence) => return cause,
         doubtful => doubtful,
     };
@@ -230,6 +231,23 @@ fn is_borne_out(evidence: &Evidence<'_>, found: &[FoundMistake]) -> bool {
     let places: Vec<_> = (0..found.len()).map(&mut line).collect();
     let clash = |a: usize, b: usize| assignment.share_a_line(&found[a], &found[b]) && places[a] == places[b];
     places.iter().all(Option::is_some) && !(0..found.len()).any(|b| (0..b).any(|a| clash(a, b)))
+}
+
+/// Whether all is black, or no number: then the colours say little of the cause.
+fn is_dark(samples: &[Sample]) -> bool {
+    samples.iter().flat_map(Sample::colour_f64).all(|channel| channel == 0.0 || channel.is_nan())
+}
+
+/// Whether the places at which all is mended serve definitions that have nothing of what the mistakes have wrong.
+fn stands_elsewhere(evidence: &Evidence<'_>, found: &[FoundMistake]) -> bool {
+    let Evidence { assignment: Assignment { equation, .. }, .. } = *evidence;
+    let forms = found.iter().filter_map(|found| evidence.assignment.mistake(&found.id)?.forms.get(found.form));
+    let wrong: Vec<usize> = forms.flat_map(|form| &form.overrides).map(|changed| changed.definition).collect();
+    let place = |name: String| equation.definitions().iter().position(|known| known.name == name);
+    let places: Vec<usize> =
+        inside::find(evidence).into_iter().filter_map(|finding| finding.serves).filter_map(place).collect();
+    let is_apart = |place: &usize| !wrong.iter().any(|wrong| equation.depends(*place, *wrong));
+    !places.is_empty() && places.iter().all(is_apart)
 }
 
 /// The homework with the student's own constants.

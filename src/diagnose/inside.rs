@@ -46,6 +46,8 @@ pub(super) struct Finding {
     pub name: Option<String>,
     /// What the value stands for: a definition of the right answer, where it has a name.
     pub quantity: Option<String>,
+    /// The first definition of the right answer that the value is, or that is computed from it.
+    pub serves: Option<String>,
     /// Whether the value is right by itself, and used where another one belongs.
     pub is_use: bool,
     /// The variables of the right answer that it is computed from, it is, and that are computed from it.

@@ -47,6 +47,7 @@ impl Search<'_, '_> {
             line,
             name,
             quantity: quantity.and_then(|quantity| quantity.names.first().cloned()),
+            serves: quantity.and_then(|quantity| self.quantities.served_by(quantity)),
             is_settled: self.is_settled(mend),
             is_whole: self.is_whole(mend),
             is_telling: (self.is_telling(mend) || flaw != Flaw::Value) && !self.is_start(mend),

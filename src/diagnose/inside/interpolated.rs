@@ -49,6 +49,7 @@ impl Search<'_, '_> {
             line: input.line,
             name: is_only.then(|| input.name.clone()),
             quantity: None,
+            serves: None,
             is_use: false,
             touches: Vec::new(),
             is_settled: true,

@@ -134,6 +134,21 @@ impl Quantities {
         found
     }
 
+    /// The first name that a quantity, or what is computed from it, is given.
+    pub fn served_by(&self, quantity: &Quantity) -> Option<String> {
+        if let Some(own) = quantity.names.first() {
+            return Some(own.clone());
+        }
+        let trace = self.traces[quantity.stage as usize].as_ref()?;
+        let names = &self.names[quantity.stage as usize];
+        let mut made = vec![false; trace.events.len()];
+        quantity.events.iter().for_each(|event| made[*event] = true);
+        for (number, event) in trace.events.iter().enumerate() {
+            made[number] |= event.from.iter().chain(&event.under).any(|from| made[*from]);
+        }
+        names.iter().zip(&made).find(|(name, made)| **made && name.is_some()).and_then(|(name, _)| name.clone())
+    }
+
     /// The names of what a quantity is computed from, its own, and those of what is computed from it.
     pub fn touched_by(&self, quantity: &Quantity) -> Vec<String> {
         let Some(trace) = &self.traces[quantity.stage as usize] else { return Vec::new() };
