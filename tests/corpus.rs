@@ -25,8 +25,8 @@ const SAMPLES: [(&str, usize); 29] = [
     ("flat", 143),
     ("fog", 13),
     ("ggsample06", 1465),
-    ("ggsample11-map", 66),
-    ("ggsample11-pcf", 57),
+    ("ggsample11-map", 69),
+    ("ggsample11-pcf", 58),
     ("ggsample11-projection", 57),
     ("ggsample11-vsm", 57),
     ("gouraud-point-light", 176),
@@ -44,7 +44,7 @@ const SAMPLES: [(&str, usize); 29] = [
     ("spot-opengl", 80),
     ("spot-soft", 63),
     ("threshold", 200),
-    ("toon", 21),
+    ("toon", 22),
     ("waves", 13),
 ];
 
