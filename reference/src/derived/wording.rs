@@ -218,8 +218,12 @@ fn filled(text: &Text, quantity: &Text, part: &Text) -> Text {
     Text { en, ja: japanese.trim_start().to_owned() }
 }
 
-/// With a capital letter at the beginning.
+/// With a capital letter at the beginning. A symbol, which is one word, stays as the lecture writes it: d is not D.
 fn capital(text: &str) -> String {
+    let name = text.split_once('⟨').map_or(text, |(name, _)| name);
+    if !name.contains(' ') {
+        return text.to_owned();
+    }
     let mut letters = text.chars();
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
