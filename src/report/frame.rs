@@ -70,6 +70,15 @@ impl Area {
         is_inside.then(|| self.width as usize * self.height as usize)
     }
 
+    /// The least part of an area that holds every pixel of another colour than `blank`; `row` gives the pixels of one of its rows.
+    pub fn foreground<'a>(area: Self, blank: [u8; 4], row: impl Fn(u32) -> &'a [[u8; 4]]) -> Self {
+        let in_row = |y| {
+            let columns = foreground_columns(row(y), blank);
+            Self { x: area.x + columns.start as u32, y, width: columns.len() as u32, height: 1 }
+        };
+        area.rows().map(in_row).fold(Self::default(), Self::with)
+    }
+
     /// The least area that holds both.
     pub fn with(self, other: Self) -> Self {
         if self.is_empty() || other.is_empty() {
@@ -97,6 +106,21 @@ impl Area {
     }
 }
 
+/// From the first to the last pixel of a row that has another colour than `blank`.
+pub(super) fn foreground_columns(row: &[[u8; 4]], blank: [u8; 4]) -> Range<usize> {
+    // Pixels that are compared at once take a tenth of the time that one by one they take.
+    const STRIDE: usize = 16;
+    let is_painted = |pixel: &[u8; 4]| u32::from_ne_bytes(*pixel) != u32::from_ne_bytes(blank);
+    let is_any = |pixels: &[[u8; 4]]| pixels.iter().fold(false, |any, pixel| any | is_painted(pixel));
+    let mut strides = row.chunks(STRIDE);
+    let Some(first) = strides.position(is_any) else { return 0..0 };
+    let last = strides.rposition(is_any).map_or(first, |behind| first + 1 + behind);
+    let within = |stride: usize| &row[stride * STRIDE..row.len().min((stride + 1) * STRIDE)];
+    let start = within(first).iter().position(is_painted).unwrap_or(0);
+    let end = within(last).iter().rposition(is_painted).unwrap_or(0);
+    first * STRIDE + start..last * STRIDE + end + 1
+}
+
 /// One 8-bit RGBA picture, top row first. Of most pictures the greater part is of one colour: it is not stored.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Picture {
@@ -121,15 +145,7 @@ impl Picture {
 
     /// The same picture, of which only the least part is stored that holds every pixel of another colour than `blank`.
     pub fn cut(mut self, blank: [u8; 4]) -> Self {
-        let is_painted = |pixel: &[u8; 4]| *pixel != blank;
-        let mut least = Area::default();
-        for y in self.area.rows() {
-            let row = self.row(y);
-            if let (Some(first), Some(last)) = (row.iter().position(is_painted), row.iter().rposition(is_painted)) {
-                let x = self.area.x + first as u32;
-                least = least.with(Area { x, y, width: (last - first) as u32 + 1, height: 1 });
-            }
-        }
+        let least = Area::foreground(self.area, blank, |y| self.row(y));
         let mut buffer = Vec::new();
         let mut rgba = Vec::with_capacity(least.width as usize * least.height as usize * 4);
         for y in least.rows() {
@@ -215,6 +231,18 @@ mod tests {
 
     fn frame(max_difference: f64, mismatched_pixels: u32, coverage_mismatches: u32) -> FrameResult {
         FrameResult { t: 0.0, coverage_mismatches, max_difference, mean_difference: 0.0, mismatched_pixels }
+    }
+
+    #[test]
+    fn every_painted_pixel_of_a_row_is_found() {
+        let row = |places: &[usize]| {
+            let mut row = [[255; 4]; 40];
+            places.iter().for_each(|x| row[*x][1] = 0);
+            foreground_columns(&row, [255; 4])
+        };
+        assert_eq!(row(&[]), 0..0);
+        assert_eq!([row(&[0]), row(&[39]), row(&[17])], [0..1, 39..40, 17..18]);
+        assert_eq!([row(&[16, 31]), row(&[15, 39]), row(&[2, 3, 9])], [16..32, 15..40, 2..10]);
     }
 
     #[test]

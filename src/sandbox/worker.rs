@@ -201,23 +201,5 @@ impl ReadyWorker {
 
 /// The least part that holds every pixel that was painted.
 fn painted(frames: &Frames, index: u32) -> Area {
-    let blank = frames.background.as_slice();
-    let area = frames.area(index);
-    let (mut left, mut right, mut top, mut bottom) = (frames.width, 0, frames.height, 0);
-    for y in area.y..area.y + area.height {
-        let row = frames.row(index, y);
-        let unlike = |pixel: &[u8]| pixel != blank;
-        let Some(first) = row.chunks_exact(4).position(unlike) else { continue };
-        let last = row.chunks_exact(4).rposition(unlike).unwrap_or(first);
-        left = left.min(area.x + first as u32);
-        right = right.max(area.x + last as u32 + 1);
-        top = top.min(y);
-        bottom = y + 1;
-    }
-    Area {
-        x: left.min(right),
-        y: top.min(bottom),
-        width: right.saturating_sub(left),
-        height: bottom.saturating_sub(top),
-    }
+    Area::foreground(frames.area(index), frames.background, |y| frames.row(index, y).as_chunks().0)
 }

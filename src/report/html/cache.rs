@@ -1,12 +1,13 @@
 //! What is made once for all pages that show the same pictures.
 
 use crate::fault::Fault;
+use crate::report::Area;
 use std::sync::{Arc, Mutex, PoisonError, Weak};
 
 /// Things made of shared pictures, for as long as somebody has these.
 pub(super) struct PictureCache<K: ?Sized, V> {
-    /// Of which pictures, in which variant, and what was made.
-    made: Mutex<Vec<(Weak<K>, usize, V)>>,
+    /// Of which pictures, of which part of them, in which variant, and what was made.
+    made: Mutex<Vec<(Weak<K>, (Area, usize), V)>>,
 }
 
 impl<K: ?Sized, V: Clone> PictureCache<K, V> {
@@ -14,8 +15,15 @@ impl<K: ?Sized, V: Clone> PictureCache<K, V> {
         Self { made: Mutex::new(Vec::new()) }
     }
 
-    /// What `make` makes of `pictures` in this variant, unless it is there already.
-    pub fn get(&self, pictures: &Arc<K>, variant: usize, make: impl FnOnce() -> Result<V, Fault>) -> Result<V, Fault> {
+    /// What `make` makes of a part of `pictures` in this variant, unless it is there already.
+    pub fn get(
+        &self,
+        pictures: &Arc<K>,
+        part: Area,
+        variant: usize,
+        make: impl FnOnce() -> Result<V, Fault>,
+    ) -> Result<V, Fault> {
+        let variant = (part, variant);
         let lock = || self.made.lock().unwrap_or_else(PoisonError::into_inner);
         let is_this = |of: &Weak<K>| Weak::ptr_eq(of, &Arc::downgrade(pictures));
         let known = lock().iter().find(|(of, known, _)| *known == variant && is_this(of)).map(|(.., v)| v.clone());

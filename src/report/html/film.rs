@@ -1,13 +1,14 @@
 //! The moving pictures as files: each a sheet of all poses, and the style that moves it.
 
-use super::base::ExpectedSheets;
+use super::base::{ExpectedSheets, look_alike};
 use super::cache::PictureCache;
 use super::sheet::{FilmStep, SheetGrid};
 use super::shots::Shots;
 use crate::fault::Fault;
+use crate::report::difference::ColourRamp;
 use crate::report::encode::{Canvas, Raster, encode_small, mismatched};
 use crate::report::pictures::fit;
-use crate::report::{Picture, Pictures, TermPictures};
+use crate::report::{Area, Picture, Pictures, TermPictures};
 use askama::Template;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -46,6 +47,7 @@ pub struct Film {
     pub is_reduced: bool,
     /// How they move.
     pub motion: Motion,
+    part: Area,
     factor: usize,
 }
 
@@ -58,7 +60,7 @@ impl Film {
     pub fn of(yours: &Arc<[Picture]>, expected: &Arc<[Picture]>, shown: FilmUse) -> Result<Option<Arc<Self>>, Fault> {
         static MADE: PictureCache<[Picture], MadeFilm> = PictureCache::new();
         let make = || Ok((Arc::clone(expected), Self::made(yours, expected, shown)?.map(Arc::new)));
-        let (of, film) = MADE.get(yours, shown as usize, make)?;
+        let (of, film) = MADE.get(yours, Area::default(), shown as usize, make)?;
         // Answers to two homeworks may draw the same.
         if Arc::ptr_eq(&of, expected) { Ok(film) } else { Ok(make()?.1) }
     }
@@ -66,21 +68,23 @@ impl Film {
     fn made(yours: &[Picture], expected: &Arc<[Picture]>, shown: FilmUse) -> Result<Option<Self>, Fault> {
         fit(yours, expected)?;
         let Some(first) = expected.first() else { return Ok(None) };
-        let motion = Motion::of(expected.len(), first.width as usize, first.height as usize);
-        let made = |yours, difference, factor| Self { yours, difference, is_reduced: factor > 1, motion, factor };
-        let finest = match shown {
-            FilmUse::Embedded => finest(expected)?,
-            FilmUse::Served => 1,
+        // A sheet that is served stands beside those of others, in one place for all.
+        let (finest, part) = match shown {
+            FilmUse::Embedded => (finest(expected)?, part(yours, expected)),
+            FilmUse::Served => (1, Area::whole(first.width, first.height)),
         };
+        let motion = Motion::of(expected.len(), first.width as usize, first.height as usize);
+        let motion = motion.within(part, first.blank);
+        let made = |yours, difference, factor| Self { yours, difference, is_reduced: factor > 1, motion, part, factor };
         if finest == 1
-            && let Some([yours, difference]) = ExpectedSheets::of(expected, motion.grid)?.sheets(yours, expected)
+            && let Some([yours, difference]) = ExpectedSheets::of(expected, motion.grid, part)?.sheets(yours, expected)
         {
             let film = made(yours.encode()?, difference.encode()?, 1);
             if film.fits(expected, shown)? {
                 return Ok(Some(film));
             }
         }
-        let (Some(drawn), Some(right)) = (Shots::of(yours), Shots::of(expected)) else { return Ok(None) };
+        let (Some(drawn), Some(right)) = (Shots::of(yours, part), Shots::of(expected, part)) else { return Ok(None) };
         let mut fitting = None;
         for factor in REDUCTIONS.into_iter().filter(|factor| *factor >= finest) {
             let yours = drawn.sheet(motion.grid, factor).encode()?;
@@ -96,7 +100,7 @@ impl Film {
     fn fits(&self, expected: &Arc<[Picture]>, shown: FilmUse) -> Result<bool, Fault> {
         Ok(match shown {
             FilmUse::Embedded => {
-                let expected = expected_address(expected, self.factor)?.len();
+                let expected = expected_address(expected, self.part, self.factor)?.len();
                 embedded_length(&self.yours) + embedded_length(&self.difference) + expected <= BUDGET
             }
             FilmUse::Served => self.yours.len() + self.difference.len() <= BUDGET_OF_SERVED,
@@ -119,38 +123,53 @@ impl Film {
         };
         Ok(PictureAddresses {
             yours: inline(&self.yours),
-            expected: expected_address(&pictures.expected, self.factor)?,
+            expected: expected_address(&pictures.expected, self.part, self.factor)?,
             difference: inline(&self.difference),
             is_reduced: self.is_reduced,
             still: still.map(|png| inline(&png)),
-            terms: TERMS.get(&pictures.terms, 0, || pictures.terms.iter().map(term).collect())?,
+            terms: TERMS.get(&pictures.terms, Area::default(), 1, || pictures.terms.iter().map(term).collect())?,
         })
     }
 }
 
 /// The sheet of what a right answer draws in every pixel, the same for every film of an assignment, as a PNG.
 pub fn expected_sheet(expected: &[Picture]) -> Result<Vec<u8>, Fault> {
-    reduced_sheet(expected, 1)?.encode_hardest()
+    let whole = expected.first().map(|first| Area::whole(first.width, first.height)).unwrap_or_default();
+    reduced_sheet(expected, whole, 1)?.encode_hardest()
 }
 
-fn reduced_sheet(expected: &[Picture], factor: usize) -> Result<Canvas, Fault> {
+fn reduced_sheet(expected: &[Picture], part: Area, factor: usize) -> Result<Canvas, Fault> {
     fit(expected, expected)?;
-    let shots = Shots::of(expected).ok_or_else(mismatched)?;
+    let shots = Shots::of(expected, part).ok_or_else(mismatched)?;
     Ok(shots.sheet(SheetGrid::of(expected.len()), factor))
 }
 
-/// It inside a page.
-fn expected_address(expected: &Arc<[Picture]>, factor: usize) -> Result<Arc<str>, Fault> {
+/// The sheet of a part of it, inside a page.
+fn expected_address(expected: &Arc<[Picture]>, part: Area, factor: usize) -> Result<Arc<str>, Fault> {
     static MADE: PictureCache<[Picture], Arc<str>> = PictureCache::new();
-    MADE.get(expected, factor, || Ok(inline(&reduced_sheet(expected, factor)?.encode_hardest()?).into()))
+    MADE.get(expected, part, factor, || Ok(inline(&reduced_sheet(expected, part, factor)?.encode_hardest()?).into()))
+}
+
+/// The part of all pictures that a page shows, the rest of which is background: where a right answer draws, for most others draw
+/// nowhere else, and share what is made of it. All of them where one draws elsewhere.
+fn part(yours: &[Picture], expected: &[Picture]) -> Area {
+    let Some(first) = expected.first() else { return Area::default() };
+    let painted = |pictures: &[Picture]| pictures.iter().fold(Area::default(), |all, picture| all.with(picture.area));
+    let right = painted(expected);
+    let is_alike = yours.iter().chain(expected).all(|picture| look_alike(&[picture.blank], &[first.blank]));
+    match is_alike && !right.is_empty() && right.with(painted(yours)) == right {
+        true => right,
+        false => Area::whole(first.width, first.height),
+    }
 }
 
 /// The least reduction at which the right pictures take their share of a page.
 fn finest(expected: &Arc<[Picture]>) -> Result<usize, Fault> {
     static FOUND: PictureCache<[Picture], usize> = PictureCache::new();
-    FOUND.get(expected, 0, || {
+    FOUND.get(expected, Area::default(), 0, || {
         for factor in REDUCTIONS {
-            if embedded_length(&reduced_sheet(expected, factor)?.encode()?) <= BUDGET_OF_EXPECTED {
+            let sheet = reduced_sheet(expected, part(expected, expected), factor)?;
+            if embedded_length(&sheet.encode()?) <= BUDGET_OF_EXPECTED {
                 return Ok(factor);
             }
         }
@@ -206,13 +225,41 @@ pub struct Motion {
     grid: SheetGrid,
     width: usize,
     height: usize,
+    part: Option<Part>,
     opening: Option<usize>,
+}
+
+/// The part of every picture that the sheets show, in percent of a picture's sides from each side, and the colours of the background
+/// around it.
+#[derive(Clone, Copy, Debug)]
+struct Part {
+    top: f64,
+    right: f64,
+    bottom: f64,
+    left: f64,
+    blank: [u8; 3],
+    agreeing: [u8; 3],
 }
 
 impl Motion {
     /// The motion of `poses` pictures, at least one, of a size.
     pub fn of(poses: usize, width: usize, height: usize) -> Self {
-        Self { grid: SheetGrid::of(poses), width, height, opening: None }
+        Self { grid: SheetGrid::of(poses), width, height, part: None, opening: None }
+    }
+
+    /// The same where the sheets show only a part of the pictures, and the rest is of the colour `blank`.
+    fn within(self, part: Area, blank: [u8; 4]) -> Self {
+        let percent = |pixels: u32, side: usize| 100.0 * f64::from(pixels) / side as f64;
+        let ([r, g, b, _], beyond) = (blank, |end: u32, side: usize| (side as u32).saturating_sub(end));
+        let part = (part != Area::whole(self.width as u32, self.height as u32)).then(|| Part {
+            top: percent(part.y, self.height),
+            right: percent(beyond(part.x + part.width, self.width), self.width),
+            bottom: percent(beyond(part.y + part.height, self.height), self.height),
+            left: percent(part.x, self.width),
+            blank: [r, g, b],
+            agreeing: ColourRamp::new().pixel(&blank, &blank),
+        });
+        Self { part, ..self }
     }
 
     /// The same for a page with a goal picture, which opens with this pose.
@@ -234,6 +281,7 @@ impl Motion {
             poses: self.grid.count,
             width: self.width,
             height: self.height,
+            part: self.part,
             starts: (0..self.grid.count).map(start).collect(),
             steps,
             opening,
@@ -251,6 +299,7 @@ struct MotionStyle {
     poses: usize,
     width: usize,
     height: usize,
+    part: Option<Part>,
     steps: Vec<FilmStep>,
     /// Seconds of the cycle that are over at each pose.
     starts: Vec<f64>,
