@@ -6,8 +6,8 @@ use crate::batch::intake::IntakeLimits;
 use crate::language::Text;
 use std::io::Read;
 
-/// The compression methods that are unpacked: stored, Deflate, Deflate64, bzip2, Zstandard.
-const METHODS: [u16; 5] = [0, 8, 9, 12, 93];
+/// The compression methods that are unpacked: stored, Deflate, Deflate64, bzip2.
+const METHODS: [u16; 4] = [0, 8, 9, 12];
 
 /// Unpacks a member. One of more than `limit` bytes is cut there where `is_cut_at_limit`, and refused where not.
 pub(super) fn unpack(
