@@ -37,7 +37,7 @@ const SAMPLES: [(&str, usize); 29] = [
     ("per-pixel", 11),
     ("phong", 190),
     ("phong-shading", 154),
-    ("rings", 15),
+    ("rings", 16),
     ("schlick", 191),
     ("several-lights", 179),
     ("spot-directx", 223),

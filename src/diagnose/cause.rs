@@ -233,9 +233,11 @@ fn is_borne_out(evidence: &Evidence<'_>, found: &[FoundMistake]) -> bool {
     places.iter().all(Option::is_some) && !(0..found.len()).any(|b| (0..b).any(|a| clash(a, b)))
 }
 
-/// Whether all is black, or no number: then the colours say little of the cause.
+/// Whether all that is drawn is black, or no number: then the colours say little of the cause.
 fn is_dark(samples: &[Sample]) -> bool {
-    samples.iter().flat_map(Sample::colour_f64).all(|channel| channel == 0.0 || channel.is_nan())
+    let is_drawn = |colour: &[f64; 3]| DVec3::from(*colour) != DISCARDED;
+    let mut drawn = samples.iter().map(Sample::colour_f64).filter(is_drawn).peekable();
+    drawn.peek().is_some() && drawn.flatten().all(|channel| channel == 0.0 || channel.is_nan())
 }
 
 /// Whether the places at which all is mended serve definitions that have nothing of what the mistakes have wrong.
