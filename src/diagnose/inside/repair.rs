@@ -235,7 +235,10 @@ impl Search<'_, '_> {
         let added = repair.added.as_deref().and_then(|name| self.meant_by(*stage, program, &trace, name));
         let judged = |name: &String| self.assignment.rubric.iter().any(|line| line.judges == *name);
         let (operator, definition) = match added.filter(judged) {
-            Some(term) if repair.mistake == Operator::AddendLeftOut => (Operator::LeftOut, Some(term)),
+            // What the text has already is not left out: it is short of another part.
+            Some(term) if repair.mistake == Operator::AddendLeftOut && !self.computes(&term) => {
+                (Operator::LeftOut, Some(term))
+            }
             _ => match self.definition_at(*stage, program, &trace, repair.mistake) {
                 // A factor of a part is none of the whole.
                 found if is_number_too_many(repair) && !matches!(found, Some((_, true))) => {
