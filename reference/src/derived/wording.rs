@@ -141,7 +141,12 @@ impl DefinitionName {
             [line] => part_called(line),
             _ => Text { en: "the result".into(), ja: "結果".into() },
         };
-        Self { named: plain.clone(), plain, is_known: true, is_everything: assignment.rubric.len() > 1 }
+        // The student's own name for what is computed there.
+        let named = Text {
+            en: format!("{}⟨ (here `{{name}}`)⟩", plain.en),
+            ja: format!("{}⟨（ここでは `{{name}}`）⟩", plain.ja),
+        };
+        Self { named, plain, is_known: true, is_everything: assignment.rubric.len() > 1 }
     }
 
     fn seen(&self) -> Text {
@@ -174,21 +179,24 @@ fn of_line(assignment: &Assignment, definition: usize) -> Text {
     let judged = |line: &&RubricLine| equation.index(&line.judges);
     let mut lines = assignment.rubric.iter();
     if let Some(line) = lines.clone().find(|line| judged(line) == Some(definition)) {
-        return Text {
-            en: format!("the part “{}”", line.label.en), ja: format!("「{}」の部分", line.label.ja)
-        };
+        return part_called(line);
     }
     if let Some(line) = lines.find(|line| judged(line).is_some_and(|judged| equation.depends(judged, definition))) {
         return Text {
             en: format!("a value of the part “{}”", line.label.en),
-            ja: format!("「{}」に使う値", line.label.ja),
+            ja: format!("{}に使う値", quoted(&line.label.ja)),
         };
     }
     Text { en: "the colour".into(), ja: "色".into() }
 }
 
 fn part_called(line: &RubricLine) -> Text {
-    Text { en: format!("the part “{}”", line.label.en), ja: format!("「{}」の部分", line.label.ja) }
+    Text { en: format!("the part “{}”", line.label.en), ja: format!("{}の部分", quoted(&line.label.ja)) }
+}
+
+/// In Japanese quotation marks. A label that is a name of the program's has them already.
+fn quoted(label: &str) -> String {
+    if label.starts_with('「') { label.to_owned() } else { format!("「{label}」") }
 }
 
 fn is_judged(assignment: &Assignment, definition: usize) -> bool {
