@@ -99,7 +99,7 @@ pub struct DriverOutput<'a> {
 pub fn check(text: &str, output: &str, batches: &[&DrawCall], samples: &[&[Sample]]) -> CrossCheck {
     let program = match Program::compile(text, Stage::Vertex) {
         Ok(program) => program,
-        Err(refusal) => return CrossCheck::not_run(&refusal.to_string(), Some(refusal.line)),
+        Err(refusal) => return CrossCheck::not_run(refusal.what().clone(), Some(refusal.line)),
     };
     let vertices = VertexColumns::new(batches);
     let samples = || samples.iter().copied().flatten();
@@ -131,10 +131,11 @@ pub fn compare(drawn: &DriverOutput<'_>, run: impl Fn(Precision) -> Result<Outpu
 
 impl CrossCheck {
     /// Nothing was run, for this reason.
-    pub fn not_run(why: &str, line: Option<u32>) -> Self {
+    pub fn not_run(why: impl Into<Text>, line: Option<u32>) -> Self {
+        let Text { en, ja } = why.into();
         let message = Text::new(
-            format!("the interpreter did not run this file: {why}"),
-            format!("インタープリターでは実行できませんでした: {why}"),
+            format!("the interpreter did not run this file: {en}"),
+            format!("インタープリターでは実行できませんでした: {ja}"),
         );
         Self {
             opinion: Opinion::NotRun,

@@ -54,6 +54,13 @@ impl Text {
     }
 }
 
+/// What a homework's folder says, or what is wrong with it.
+impl From<reference::Text> for Text {
+    fn from(text: reference::Text) -> Self {
+        Self { en: text.en, ja: text.ja }
+    }
+}
+
 /// A span of milliseconds in its two largest units, such as `2 days 3 hours`; minutes are followed by nothing. The student's page
 /// writes it in the same way.
 pub(crate) fn span(span: u64, language: Language) -> String {

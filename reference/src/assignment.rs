@@ -17,10 +17,11 @@ use crate::mistake::{FoundMistake, Mistake, MistakeForm};
 use crate::pipeline::Pipeline;
 use crate::probes::{Probing, Region};
 use crate::scene::{Moment, Scene, Vertex};
+use crate::text::both;
 use crate::typeset::Typeset;
 use crate::{Folder, Text, Value, manifest};
 pub use error::AssignmentError;
-pub(crate) use error::{both, error};
+pub(crate) use error::error;
 use std::sync::{Arc, OnceLock};
 
 /// A homework as data.
@@ -359,10 +360,14 @@ impl Assignment {
         let mut other = self.clone();
         for (name, value) in changed {
             let found = other.constants.iter().position(|c| c.name == *name);
-            let place =
-                found.ok_or_else(|| error(format!("constant `{name}`"), "is not a constant of the assignment"))?;
+            let place = found.ok_or_else(|| {
+                error(
+                    format!("constant `{name}`"),
+                    both("is not a constant of the assignment", "この課題の定数ではありません"),
+                )
+            })?;
             if other.constants[place].value.kind() != value.kind() {
-                return Err(error(format!("constant `{name}`"), "has another type"));
+                return Err(error(format!("constant `{name}`"), both("has another type", "型が異なります")));
             }
             other.constants[place].value = value.clone();
             other.equation.constants[place].1 = value.clone();

@@ -1,6 +1,7 @@
 //! The folder of an assignment: its files, read once, wherever they come from.
 
-use crate::assignment::{AssignmentError, MANIFEST, both, error};
+use crate::assignment::{AssignmentError, MANIFEST, error};
+use crate::text::both;
 use crate::{Text, built_in, manifest};
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;

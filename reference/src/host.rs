@@ -8,8 +8,8 @@ mod found;
 mod meaning;
 mod token;
 
-use crate::assignment::both;
 use crate::probes::ProbeSet;
+use crate::text::both;
 use crate::{Assignment, Text};
 use expression::{HostExpression, Reader};
 use found::{FoundArray, NumberTokens};

@@ -70,6 +70,7 @@ pub use text::numbers;
 pub use texture::{Compare, Depths, Filter, Level, Lookup, Texels, Texture, Wrap};
 pub use types::{Dimension, Sampler, Scalar, Struct, Type};
 
+use crate::Text;
 use std::collections::HashSet;
 use std::fmt;
 
@@ -87,21 +88,21 @@ pub enum Stage {
 pub struct Refusal {
     /// The line in the file, from 1; 0 where it is about the whole file.
     pub line: u32,
-    what: String,
+    what: Text,
     is_limit: bool,
 }
 
 impl Refusal {
-    fn invalid(line: u32, what: impl Into<String>) -> Self {
-        Self { line, what: what.into(), is_limit: false }
+    fn invalid(line: u32, what: Text) -> Self {
+        Self { line, what, is_limit: false }
     }
 
-    fn limit(line: u32, what: impl Into<String>) -> Self {
-        Self { line, what: what.into(), is_limit: true }
+    fn limit(line: u32, what: Text) -> Self {
+        Self { line, what, is_limit: true }
     }
 
     /// What is wrong, or not supported.
-    pub fn what(&self) -> &str {
+    pub fn what(&self) -> &Text {
         &self.what
     }
 
@@ -114,7 +115,7 @@ impl Refusal {
 impl fmt::Display for Refusal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let kind = if self.is_limit { "not supported" } else { "not valid" };
-        write!(f, "line {}: {kind}: {}", self.line, self.what)
+        write!(f, "line {}: {kind}: {}", self.line, self.what.en)
     }
 }
 

@@ -4,6 +4,7 @@ use crate::assignment::Interface;
 use crate::interpreter::{Copied, Interpolation, Nature, Outputs, Program, ProgramVariable, Run, Texture};
 use crate::probes::at_pixel;
 use crate::scene::Vertex;
+use crate::text::{Text, both};
 use crate::{Assignment, Value};
 use glam::DVec4;
 use std::sync::Arc;
@@ -52,20 +53,24 @@ impl Pipeline {
     ///
     /// # Errors
     /// The stages do not fit: what does not.
-    pub fn link(vertex: &Arc<Program>, fragment: &Arc<Program>, colour: Option<&str>) -> Result<Self, String> {
+    pub fn link(vertex: &Arc<Program>, fragment: &Arc<Program>, colour: Option<&str>) -> Result<Self, Text> {
         let mut varyings: Vec<Varying> = Vec::new();
         for (input, read) in fragment.inputs().iter().enumerate().filter(|(_, read)| !read.name.starts_with("gl_")) {
             let outputs = || vertex.outputs().iter().enumerate();
             let placed = outputs().find(|(_, output)| read.location.is_some() && output.location == read.location);
             let found = placed.or_else(|| outputs().find(|(_, output)| output.name == read.name));
             let Some((output, written)) = found else {
-                return Err(format!("the fragment stage reads `{}`, which the vertex stage does not write", read.name));
+                let name = &read.name;
+                return Err(both(
+                    format!("the fragment stage reads `{name}`, which the vertex stage does not write"),
+                    format!("フラグメントシェーダが読む `{name}` を、バーテックスシェーダが書いていません"),
+                ));
             };
             if written.kind != read.kind {
-                let (from, to) = (&written.kind, &read.kind);
-                return Err(format!(
-                    "`{}` is a {from} in the vertex stage and a {to} in the fragment stage",
-                    read.name
+                let (name, from, to) = (&read.name, &written.kind, &read.kind);
+                return Err(both(
+                    format!("`{name}` is a {from} in the vertex stage and a {to} in the fragment stage"),
+                    format!("`{name}` の型が、バーテックスシェーダでは {from}、フラグメントシェーダでは {to} です"),
                 ));
             }
             let first = varyings.last().map_or(0, |last| last.scalars.end);
@@ -114,15 +119,21 @@ impl Pipeline {
 }
 
 /// The output that the window shows.
-fn seen(outputs: &[ProgramVariable], name: Option<&str>) -> Result<usize, String> {
+fn seen(outputs: &[ProgramVariable], name: Option<&str>) -> Result<usize, Text> {
     let own = || outputs.iter().enumerate().filter(|(_, output)| output.name != "gl_FragDepth");
     let found = match name {
         Some(name) => own().find(|(_, output)| output.name == name),
         None => own().find(|(_, output)| output.location == Some(0)).or_else(|| own().next()),
     };
     found.map(|(place, _)| place).ok_or_else(|| match name {
-        Some(name) => format!("the fragment stage has no output `{name}`"),
-        None => "the fragment stage has no output: declare `out vec4 a_name;`".into(),
+        Some(name) => both(
+            format!("the fragment stage has no output `{name}`"),
+            format!("フラグメントシェーダに出力 `{name}` がありません"),
+        ),
+        None => both(
+            "the fragment stage has no output: declare `out vec4 a_name;`",
+            "フラグメントシェーダに出力がありません。`out vec4 a_name;` と宣言してください",
+        ),
     })
 }
 

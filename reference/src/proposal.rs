@@ -21,8 +21,9 @@ mod starter;
 mod uniforms;
 mod writing;
 
-use crate::assignment::{AssignmentError, MANIFEST, both};
+use crate::assignment::{AssignmentError, MANIFEST};
 use crate::interpreter::{Stage, Type};
+use crate::text::both;
 use crate::{Assignment, Folder, Text};
 use rubric::ProposedLine;
 use source::SolutionFile;

@@ -14,10 +14,21 @@ pub struct Text {
 }
 
 impl Text {
+    /// What stands in both languages as it is: a word of a file, or what another program says.
+    pub fn verbatim(text: impl Into<String>) -> Self {
+        let en = text.into();
+        Self { ja: en.clone(), en }
+    }
+
     /// Both wordings with their `{placeholders}` filled in. A part in ⟨ ⟩ is left out if one of its placeholders is not given.
     pub fn fill(&self, values: &[(&str, &str)]) -> Self {
         Self { en: fill(&self.en, values), ja: fill(&self.ja, values) }
     }
+}
+
+/// A message in both languages.
+pub(crate) fn both(en: impl Into<String>, ja: impl Into<String>) -> Text {
+    Text { en: en.into(), ja: ja.into() }
 }
 
 fn fill(text: &str, values: &[(&str, &str)]) -> String {

@@ -3,6 +3,7 @@
 //! A stage that is handed in is compiled so that it can be traced; a fixed one runs as it is. Where the fragment stage is all
 //! that is handed in, it is given exactly what the probes' own vertex stage hands over.
 
+use crate::Text;
 use crate::equation::{DISCARDED, Reads};
 use crate::interpreter::trace::{Trace, ValueChange};
 use crate::interpreter::{Interpolation, Outputs, Prepared, Program, ProgramVariable, Scalar, Stage};
@@ -64,11 +65,11 @@ impl TracedProgram {
     ///
     /// # Errors
     /// Why it cannot be run.
-    pub fn new(assignment: &Assignment, texts: &[(Stage, &str)]) -> Result<Self, String> {
+    pub fn new(assignment: &Assignment, texts: &[(Stage, &str)]) -> Result<Self, Text> {
         let [mut vertex, mut fragment] = [&assignment.pipeline.vertex, &assignment.pipeline.fragment].map(Arc::clone);
         let mut handed_in = [false; 2];
         for (stage, text) in texts {
-            let traced = Arc::new(Program::traced(text, *stage).map_err(|refusal| refusal.to_string())?);
+            let traced = Arc::new(Program::traced(text, *stage).map_err(|refusal| refusal.what().clone())?);
             match stage {
                 Stage::Vertex => (vertex, handed_in[0]) = (traced, true),
                 Stage::Fragment => (fragment, handed_in[1]) = (traced, true),
@@ -85,7 +86,7 @@ impl TracedProgram {
     ///
     /// # Errors
     /// Why it cannot be run.
-    pub fn solution(assignment: &Assignment) -> Result<Self, String> {
+    pub fn solution(assignment: &Assignment) -> Result<Self, Text> {
         let texts: Vec<(Stage, &str)> =
             assignment.files.iter().map(|file| (file.stage.into(), file.solution.text.as_str())).collect();
         Self::new(assignment, &texts)

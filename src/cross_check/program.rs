@@ -25,15 +25,16 @@ pub fn check_program(
         };
         match Program::compile(&source.text, *stage) {
             Ok(program) => *own = Arc::new(program),
-            Err(refusal) => return CrossCheck::not_run(&refusal.to_string(), Some(refusal.line)),
+            Err(refusal) => return CrossCheck::not_run(refusal.what().clone(), Some(refusal.line)),
         }
     }
-    let shown = Pipeline::link(&vertex, &fragment, None).and_then(|pipeline| {
-        assignment.shown_at(&pipeline, probes).ok_or_else(|| "it does not come to an end, or lacks an input".to_owned())
+    let shown = Pipeline::link(&vertex, &fragment, None).map_err(Text::from).and_then(|pipeline| {
+        let lacks = || Text::new("it does not come to an end, or lacks an input", "終了しないか、入力が足りません");
+        assignment.shown_at(&pipeline, probes).ok_or_else(lacks)
     });
     let shown = match shown {
         Ok(shown) => shown,
-        Err(why) => return CrossCheck::not_run(&why, None),
+        Err(why) => return CrossCheck::not_run(why, None),
     };
     let judged = shown.iter().zip(samples).enumerate().map(|(number, (shown, sample))| {
         let is_near = |ours: f64, theirs: f32| (ours - f64::from(theirs)).abs() <= TOLERANCE * ours.abs().max(1.0);

@@ -1,6 +1,7 @@
 //! What the driver was given, as the interpreter takes it.
 
 use super::CrossCheck;
+use crate::language::Text;
 use crate::render::DrawCall;
 use reference::interpreter::{Mismatch, Outputs, Precision, Program, Run, Stopped};
 
@@ -56,8 +57,10 @@ impl<'a> VertexColumns<'a> {
 
     /// The outputs of all vertices, or why there are none.
     pub fn run(&self, program: &Program, precision: Precision) -> Result<Outputs, CrossCheck> {
-        let fed = self.feed(program).map_err(|mismatch| CrossCheck::not_run(&mismatch.to_string(), None))?;
-        let stopped = |at: Stopped| CrossCheck::not_run("the interpreter used up its steps", Some(at.line));
+        let fed =
+            self.feed(program).map_err(|mismatch| CrossCheck::not_run(Text::verbatim(mismatch.to_string()), None))?;
+        let used_up = || Text::new("the interpreter used up its steps", "実行ステップ数の上限に達しました");
+        let stopped = |at: Stopped| CrossCheck::not_run(used_up(), Some(at.line));
         fed.precision(precision).fuel(FUEL).outputs().map_err(stopped)
     }
 

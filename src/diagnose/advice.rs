@@ -7,7 +7,6 @@ use super::Evidence;
 use super::columns::is_colour;
 use super::locate::{Located, TracedProbes, Words, is_handed_out, last_position};
 use super::trials::{StageChanges, place};
-use crate::language::Text;
 use crate::report::AdviceLine;
 use crate::translate::plain_lines;
 use glam::{DVec3, DVec4};
@@ -147,7 +146,7 @@ impl Beyond {
         let message = self.advice.message.fill(&values);
         AdviceLine {
             id: self.advice.id.clone(),
-            message: Text::new(message.en, message.ja),
+            message: message.into(),
             file: evidence.source.facts.name.clone(),
             line,
         }

@@ -383,7 +383,7 @@ fn agreement(evidence: &Evidence<'_>, line: &RubricLine) -> Text {
     let probes = evidence.probes.probes.len();
     if let Some(right) = &line.right {
         let filled = right.fill(&[("frames", &frames.to_string()), ("probes", &probes.to_string())]);
-        return Text::new(filled.en, filled.ja);
+        return filled.into();
     }
     if evidence.assignment.judges_position(line) {
         return Text::new(

@@ -92,10 +92,7 @@ pub(super) fn read_again(files: &[FileHead], body: &[u8]) -> Answered {
             pictures::telling_pose(&assignment);
             Answered::Loaded
         }
-        Err(error) => {
-            let why = error.text();
-            Answered::Refused(Text::new(why.en, why.ja))
-        }
+        Err(error) => Answered::Refused(error.text().into()),
     }
 }
 
@@ -114,10 +111,7 @@ pub(super) fn answer(device: &Device, archive: &[u8]) -> (Answered, Vec<u8>) {
 fn checked(device: &Device, archive: &[u8]) -> Result<(Folder, Report, Report), Text> {
     let folder = unpacked(archive)?;
     let loaded = folder.with_bases(None).and_then(Assignment::load);
-    let assignment = Arc::new(loaded.map_err(|error| {
-        let why = error.text();
-        Text::new(why.en, why.ja)
-    })?);
+    let assignment = Arc::new(loaded.map_err(|error| error.text())?);
     // The device has drawn before: what cannot be drawn now is the folder's doing.
     let why = |fault: Fault| fault.message;
     let (expected, _) = expected::prepared(&assignment, None, None).map_err(why)?;

@@ -138,10 +138,7 @@ impl ReadyWorker {
 
     /// Reads an assignment; gives its pictures where they are wanted.
     fn read(&mut self, load: &Load, folder: Folder, pictures: Option<&[u8]>) -> Result<Option<Pack>, Fault> {
-        let assignment = Assignment::load(folder).map_err(|error| {
-            let why = error.text();
-            Fault::new(Text::new(why.en, why.ja))
-        })?;
+        let assignment = Assignment::load(folder).map_err(|error| Fault::new(error.text().into()))?;
         let given = pictures.map(Pack::of_bytes);
         let above = load.wants_pictures_above_ms.map(Duration::from_millis);
         let (expected, pack) = expected::prepared(&assignment, given.as_ref(), above)?;

@@ -12,7 +12,8 @@ use super::pages;
 use super::regrade;
 use super::store::{Regrading, Result as StoreResult, StaffRole, Store, UploadedFolder};
 use super::{Service, State};
-use crate::language::Text;
+use crate::language::{Language, Text};
+use crate::report::labels::Labels;
 use crate::report::{Report, Verdict};
 use crate::sandbox::{CheckedFolder, MOST_ASSIGNMENTS};
 use axum::http::StatusCode;
@@ -55,10 +56,7 @@ async fn loaded(folder: Folder) -> Result<Arc<Assignment>, Text> {
     let read = tokio::task::spawn_blocking(move || Assignment::load(folder)).await;
     match read {
         Ok(Ok(assignment)) => Ok(Arc::new(assignment)),
-        Ok(Err(error)) => {
-            let why = error.text();
-            Err(Text::new(why.en, why.ja))
-        }
+        Ok(Err(error)) => Err(error.text().into()),
         Err(panic) => Err(Text::verbatim(panic.to_string())),
     }
 }
@@ -174,14 +172,12 @@ pub async fn upload(service: &Service, archive: &Path, teacher: &Teacher) -> Res
 
 /// What is wrong with a folder that is read and drawn: `ggrade assignment check` holds it to the same.
 fn flaw(service: &Service, solution: &Report, handed_out: &Report) -> Option<Text> {
-    let scored = |report: &Report| format!("{:?}, {} / {}", report.verdict, report.score, report.max_score);
-    let first = |report: &Report| report.diagnostics.first().map(|one| one.message.clone()).unwrap_or_default();
     let deadline = service.config.deadline;
     if solution.verdict != Verdict::Correct {
-        let (scored, why) = (scored(solution), first(solution));
+        let Text { en, ja } = scored(solution);
         return Some(Text::new(
-            format!("its own solution does not get full marks ({scored}). {}", why.en),
-            format!("付属の解答が満点になりません（{scored}）。{}", why.ja),
+            format!("its own solution does not get full marks: {en}"),
+            format!("付属の解答が満点になりません: {ja}"),
         ));
     }
     if solution.elapsed_ms > deadline * 1e3 {
@@ -196,13 +192,28 @@ fn flaw(service: &Service, solution: &Report, handed_out: &Report) -> Option<Tex
         ));
     }
     if handed_out.verdict != Verdict::Wrong {
-        let (scored, why) = (scored(handed_out), first(handed_out));
+        let Text { en, ja } = scored(handed_out);
         return Some(Text::new(
-            format!("what it hands out must run and leave something to do, and is graded as {scored}. {}", why.en),
-            format!("配布ファイルは、実行でき、未完成である必要がありますが、判定が {scored} になりました。{}", why.ja),
+            format!("what it hands out must run and leave something to do, and it does not: {en}"),
+            format!("配布ファイルは、実行でき、かつ未完成でなければなりません: {ja}"),
         ));
     }
     None
+}
+
+/// A verdict, the points, and the first thing that the report says, with its place.
+fn scored(report: &Report) -> Text {
+    let one = |language| {
+        let labels = Labels::of(language);
+        let verdict = labels.verdict(report.verdict);
+        let said = report.diagnostics.first().map(|first| {
+            let place = first.line.map(|line| labels.place(first.file.as_deref(), line, first.column) + ": ");
+            let stop = if labels.japanese() { "。" } else { ". " };
+            format!("{stop}{}{}", place.unwrap_or_default(), first.message.get(language))
+        });
+        format!("{verdict}, {} / {}{}", report.score, report.max_score, said.unwrap_or_default())
+    };
+    Text::new(one(Language::En), one(Language::Ja))
 }
 
 /// Serves a folder, or has what was handed in graded by it first, where there is something.

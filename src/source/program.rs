@@ -47,7 +47,7 @@ pub fn read_program(array: &HostArray, name: &str, bytes: &[u8]) -> Result<ReadP
 fn refused(unreadable: UnreadableProgram) -> Diagnostic {
     let error = Diagnostic { line: unreadable.line, ..said(&unreadable.message) };
     match unreadable.hint {
-        Some(hint) => error.hint(Text::new(hint.en, hint.ja)),
+        Some(hint) => error.hint(hint.into()),
         None => error,
     }
 }

@@ -4,6 +4,7 @@ use super::opengl::{Given, Matrix, OpenGl, Texels, Version};
 use super::programs::{Random, program};
 use super::scenes::texture;
 use ggrade::cross_check::{self, CrossCheck, DriverOutput, Opinion};
+use ggrade::language::Text;
 use reference::interpreter::{Outputs, Precision, Program, Stage, Texture};
 
 /// How many programs there are.
@@ -71,7 +72,8 @@ impl Scene {
         for (number, (name, _)) in self.textures.iter().enumerate().filter(|(_, (name, _))| is_used(name)) {
             run = run.uniform(name, &[number as f64]).expect("a sampler");
         }
-        run.outputs().map_err(|stopped| CrossCheck::not_run("its steps are used up", Some(stopped.line)))
+        run.outputs()
+            .map_err(|stopped| CrossCheck::not_run(Text::verbatim("its steps are used up"), Some(stopped.line)))
     }
 }
 

@@ -17,12 +17,13 @@ mod textures;
 mod typeset;
 mod variants;
 
-use super::{Assignment, AssignmentError, FixedStage, Gradual, HandedIn, MANIFEST, Stage, both, error};
+use super::{Assignment, AssignmentError, FixedStage, Gradual, HandedIn, MANIFEST, Stage, error};
 use crate::Folder;
 use crate::accepted::AcceptedAnswer;
 use crate::interpreter::Texture;
 use crate::manifest::{self, Manifest};
 use crate::mistake::Mistake;
+use crate::text::both;
 use solution::CheckedSolution;
 use std::collections::HashSet;
 use std::sync::{Arc, OnceLock};

@@ -59,8 +59,8 @@ impl AssignmentError {
     }
 
     /// About a whole file.
-    pub(crate) fn of_file(file: impl Into<String>, message: impl Into<Text>) -> Self {
-        Self { file: file.into(), line: None, column: None, entry: None, message: message.into() }
+    pub(crate) fn of_file(file: impl Into<String>, message: Text) -> Self {
+        Self { file: file.into(), line: None, column: None, entry: None, message }
     }
 
     /// The same with the column of the first word between backticks that stands in its line of the file's text.
@@ -94,29 +94,10 @@ impl fmt::Display for AssignmentError {
 
 impl std::error::Error for AssignmentError {}
 
-/// A message in both languages.
-pub(crate) fn both(en: impl Into<String>, ja: impl Into<String>) -> Text {
-    Text { en: en.into(), ja: ja.into() }
-}
-
-/// What the interpreter or a parser says; it speaks English.
-impl From<String> for Text {
-    fn from(en: String) -> Self {
-        Self { ja: en.clone(), en }
-    }
-}
-
-impl From<&str> for Text {
-    fn from(en: &str) -> Self {
-        en.to_owned().into()
-    }
-}
-
 /// An error at a place: `FILE`, `FILE, line N`, either of them with `, ENTRY` behind it, or an entry of `assignment.toml`
 /// alone, such as ``mistake `gamma` ``. The name of a file has a dot and no space.
-pub(crate) fn error(place: impl Into<String>, message: impl Into<Text>) -> AssignmentError {
+pub(crate) fn error(place: impl Into<String>, message: Text) -> AssignmentError {
     let place = place.into();
-    let message = message.into();
     let (first, rest) = place.split_once(", ").unwrap_or((&place, ""));
     let is_file = first.contains('.') && !first.contains([' ', '`']);
     if !is_file {
@@ -180,6 +161,7 @@ fn line_of(manifest: &str, entry: &str) -> Option<u32> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::text::both;
 
     const TEXT: &str = "id = \"x\"\n[scene]\nfar = 1\n[[mistake]]\nid = \"one\"\n[mistake.seen]\nen = \"\"\n\n\
                         [[mistake]]\nkeeps = {}\nid = \"two\"\n[definition.h]\nslide = 1\n";
@@ -197,7 +179,7 @@ mod tests {
     #[test]
     fn a_place_is_a_file_or_an_entry() {
         let found = |place: &str| {
-            let AssignmentError { file, line, entry, .. } = error(place, "wrong");
+            let AssignmentError { file, line, entry, .. } = error(place, Text::verbatim("wrong"));
             (file, line, entry)
         };
         assert_eq!(found("a.vert"), ("a.vert".into(), None, None));
@@ -212,13 +194,14 @@ mod tests {
 
     #[test]
     fn a_column_is_that_of_the_first_word_that_is_named() {
-        let said =
-            |line: &str, message: &str| error("a.frag, line 2", message).in_column_of(&format!("one\n{line}\n")).column;
+        let said = |line: &str, message: &str| {
+            error("a.frag, line 2", Text::verbatim(message)).in_column_of(&format!("one\n{line}\n")).column
+        };
         assert_eq!(said("  c = vec4(cc, c2);", "there is no variable `c2`"), Some(16));
         assert_eq!(said("  colour = c;", "`c` has no value: write `c = …`"), Some(12));
         assert_eq!(said("  “é” = x;", "there is no `x`"), Some(9));
         assert_eq!(said("nothing of it", "`c` is missing"), None);
-        let whole = AssignmentError::of_file("a.frag", "`one` is missing").in_column_of("one");
+        let whole = AssignmentError::of_file("a.frag", Text::verbatim("`one` is missing")).in_column_of("one");
         assert_eq!((whole.line, whole.column), (None, None));
     }
 }

@@ -4,7 +4,7 @@ use super::found::closing;
 use super::meaning::NameMeaning;
 use super::token::{HostToken, HostTokenKind};
 use super::{HostArray, UnreadableProgram};
-use crate::assignment::both;
+use crate::text::both;
 use std::collections::BTreeSet;
 
 /// Names stand for names at most so deep, and what a number is written as has at most so many parts.

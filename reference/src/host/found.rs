@@ -2,7 +2,7 @@
 
 use super::token::{HostToken, HostTokenKind};
 use super::{HostArray, UnreadableProgram};
-use crate::assignment::both;
+use crate::text::both;
 use std::ops::Range;
 
 /// An array in a program.

@@ -4,7 +4,7 @@ use super::UnreadableProgram;
 use super::expression::{DEEPEST, HostExpression, HostResult, Reader};
 use super::found::closing;
 use super::token::HostTokenKind;
-use crate::assignment::both;
+use crate::text::both;
 
 /// What a name stands for.
 pub(super) enum NameMeaning {

@@ -14,6 +14,7 @@ use super::Stage;
 use super::code::{ArithmeticClass, Operation, Slot};
 use super::compile::{CodeBuilder, CompiledValue, class};
 use super::types::{Scalar, Type};
+use crate::text::{Text, both};
 
 /// A call of a built-in function.
 pub struct BuiltinCall<'a> {
@@ -32,7 +33,7 @@ impl BuiltinCall<'_> {
     ///
     /// # Errors
     /// What is not supported.
-    pub fn write(&self, builder: &mut CodeBuilder) -> Result<Vec<Vec<Slot>>, String> {
+    pub fn write(&self, builder: &mut CodeBuilder) -> Result<Vec<Vec<Slot>>, Text> {
         let of: Vec<&[Slot]> = self.arguments.iter().map(|argument| argument.slots.as_slice()).collect();
         if self.arguments.first().is_some_and(|argument| matches!(argument.kind, Type::Sampler(_))) {
             return self.lookup(builder).map(|result| vec![result]);
@@ -48,7 +49,12 @@ impl BuiltinCall<'_> {
             .or_else(|| self.matrix(builder, class))
             .or_else(|| bits::write(builder, self.name, self.scalar(), &of))
             .or_else(|| self.derivative(builder, &of));
-        written.ok_or_else(|| format!("the function {}", self.name))
+        written.ok_or_else(|| self.unsupported())
+    }
+
+    fn unsupported(&self) -> Text {
+        let name = self.name;
+        both(format!("the function `{name}` is not supported"), format!("関数 `{name}` には対応していません"))
     }
 
     /// What the first argument is made of.

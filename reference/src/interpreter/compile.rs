@@ -22,6 +22,7 @@ use super::code::{Code, Node, ProgramVariable, Slot};
 use super::syntax::{Expression, Function, Item, Name};
 use super::types::Type;
 use super::{Refusal, Stage};
+use crate::text::{Text, both};
 use scope::Scopes;
 use std::collections::HashMap;
 use traced::Tracing;
@@ -99,7 +100,7 @@ pub fn constant(expression: &Expression, version: u32, kind: &Type) -> Result<Ve
     let mut compiler = Compiler::new(version, Stage::Vertex);
     let value = compiler.initial_value(expression, kind)?;
     let known = value.slots.iter().map(|&slot| compiler.builder.known(slot)).collect::<Option<Vec<f64>>>();
-    known.ok_or_else(|| compiler.invalid("this is not constant"))
+    known.ok_or_else(|| compiler.invalid(both("this is not constant", "定数式ではありません")))
 }
 
 impl Compiler {
@@ -135,17 +136,21 @@ impl Compiler {
         self.end_statement(mark)
     }
 
-    fn invalid(&self, what: impl Into<String>) -> Refusal {
+    fn invalid(&self, what: Text) -> Refusal {
         Refusal::invalid(self.builder.line, what)
     }
 
-    fn limit(&self, what: impl Into<String>) -> Refusal {
+    fn limit(&self, what: Text) -> Refusal {
         Refusal::limit(self.builder.line, what)
     }
 
     fn end_statement(&mut self, mark: usize) -> Result<(), Refusal> {
         self.builder.release(mark);
-        if self.builder.is_full() { Err(self.limit("this program has too many instructions")) } else { Ok(()) }
+        if self.builder.is_full() {
+            Err(self.limit(both("this program has too many instructions", "プログラムの命令が多すぎます")))
+        } else {
+            Ok(())
+        }
     }
 
     /// Collects the nodes that `write` adds, apart from those that are there.
@@ -166,7 +171,10 @@ impl Compiler {
         let index = self.declare_function(function)?;
         let Some(body) = &function.body else { return Ok(()) };
         if self.functions[index].body.is_some() {
-            return Err(self.invalid(format!("{} is defined twice", function.name)));
+            return Err(self.invalid(both(
+                format!("{} is defined twice", function.name),
+                format!("`{}` が 2 回定義されています", function.name),
+            )));
         }
         self.current = Some(index);
         self.tracing.function = Some(function.name.to_string());
@@ -196,7 +204,8 @@ impl Compiler {
             .get("main")
             .and_then(|all| all.iter().copied().find(|&index| self.functions[index].signature.parameters.is_empty()));
         let main = main.filter(|&main| self.functions[main].body.is_some());
-        let main = main.ok_or_else(|| Refusal::invalid(0, "there is no function main"))?;
+        let main =
+            main.ok_or_else(|| Refusal::invalid(0, both("there is no function main", "関数 `main` がありません")))?;
         let mut depths = vec![None; self.functions.len()];
         self.check_calls(main, &mut depths, 0)?;
         let start = std::mem::take(&mut self.builder.nodes);
@@ -218,10 +227,22 @@ impl Compiler {
     fn check_calls(&self, index: usize, depths: &mut [Option<usize>], above: usize) -> Result<usize, Refusal> {
         let function = &self.functions[index];
         if above > self.functions.len() {
-            return Err(Refusal::invalid(0, format!("{} calls itself", function.name)));
+            return Err(Refusal::invalid(
+                0,
+                both(
+                    format!("{} calls itself", function.name),
+                    format!("`{}` が自分自身を呼び出しています", function.name),
+                ),
+            ));
         }
         if function.body.is_none() {
-            return Err(Refusal::invalid(0, format!("{} is called and not defined", function.name)));
+            return Err(Refusal::invalid(
+                0,
+                both(
+                    format!("{} is called and not defined", function.name),
+                    format!("`{}` が呼び出されていますが、定義されていません", function.name),
+                ),
+            ));
         }
         if let Some(depth) = depths[index] {
             return Ok(depth);
@@ -232,7 +253,10 @@ impl Compiler {
         }
         let depth = depth + function.depth + 1;
         if depth > MAX_DEPTH {
-            return Err(Refusal::limit(0, "calls and statements nested too deeply"));
+            return Err(Refusal::limit(
+                0,
+                both("calls and statements are nested too deeply", "関数呼び出しと文の入れ子が深すぎます"),
+            ));
         }
         depths[index] = Some(depth);
         Ok(depth)

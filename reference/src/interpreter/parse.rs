@@ -8,6 +8,7 @@ mod statement;
 use super::Refusal;
 use super::syntax::{Expression, Item, Name};
 use super::text::{Token, TokenKind};
+use crate::text::{Text, both};
 use std::collections::HashSet;
 
 /// Deepest nesting of expressions and statements; ggrade's gate refuses deeper files before.
@@ -35,7 +36,16 @@ pub fn parse(tokens: &[Token]) -> Result<Vec<Item>, Refusal> {
 pub fn parse_expression(tokens: &[Token], functions: HashSet<Name>) -> Result<Expression, Refusal> {
     let mut parser = Parser { tokens, at: 0, depth: 0, functions };
     let expression = parser.initialiser()?;
-    if parser.at < tokens.len() { Err(parser.unexpected("the end of the expression")) } else { Ok(expression) }
+    if parser.at < tokens.len() {
+        Err(parser.unexpected(both("the end of the expression", "式の終わり")))
+    } else {
+        Ok(expression)
+    }
+}
+
+/// A token of the text, as it is quoted.
+fn token(text: &str) -> Text {
+    both(format!("`{text}`"), format!(" `{text}` "))
 }
 
 struct Parser<'a> {
@@ -71,12 +81,17 @@ impl Parser<'_> {
     }
 
     fn expect(&mut self, text: &str) -> Result<(), Refusal> {
-        if self.takes(text) { Ok(()) } else { Err(self.unexpected(&format!("`{text}`"))) }
+        if self.takes(text) { Ok(()) } else { Err(self.unexpected(token(text))) }
     }
 
-    fn unexpected(&self, wanted: &str) -> Refusal {
-        let found = self.peek(0).map_or_else(|| "the end of the file".to_owned(), |token| format!("`{}`", token.text));
-        Refusal::invalid(self.line(), format!("{wanted} is expected before {found}"))
+    fn unexpected(&self, wanted: Text) -> Refusal {
+        let found =
+            self.peek(0).map_or_else(|| both("the end of the file", "ファイルの終わり"), |found| token(&found.text));
+        let what = both(
+            format!("{} is expected before {}", wanted.en, found.en),
+            format!("{}の前に{}が必要です", found.ja.trim_start(), wanted.ja),
+        );
+        Refusal::invalid(self.line(), what)
     }
 
     fn name(&mut self) -> Result<Name, Refusal> {
@@ -85,14 +100,14 @@ impl Parser<'_> {
                 self.at += 1;
                 Ok(Name::clone(&self.tokens[self.at - 1].text))
             }
-            _ => Err(self.unexpected("a name")),
+            _ => Err(self.unexpected(both("a name", "名前"))),
         }
     }
 
     /// Goes one level deeper, as far as the stack is sure to bear it.
     fn nested<T>(&mut self, read: impl FnOnce(&mut Self) -> Result<T, Refusal>) -> Result<T, Refusal> {
         if self.depth >= MAX_NESTING {
-            return Err(Refusal::limit(self.line(), "this is nested too deeply"));
+            return Err(Refusal::limit(self.line(), both("this is nested too deeply", "入れ子が深すぎます")));
         }
         self.depth += 1;
         let result = read(self);

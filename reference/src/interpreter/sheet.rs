@@ -30,6 +30,7 @@ use super::code::{Node, Slot};
 use super::run::SingleSample;
 use super::texture::Texture;
 use super::types::Type;
+use crate::text::{Text, both};
 use std::ops::Range;
 use std::sync::Arc;
 use straight::VectorInstruction;
@@ -109,11 +110,16 @@ impl Formula {
         cells: &[Cell],
         functions: &[&[Node]],
         temporaries: Range<Slot>,
-    ) -> Result<Self, (String, u32)> {
+    ) -> Result<Self, (Text, u32)> {
         let access = access::of(&nodes, functions)?;
         let cell_of = |slot: &Slot| cells.iter().position(|cell| cell.slots.contains(slot));
         if let Some(other) = access.written.iter().filter_map(cell_of).find(|&other| other != cell) {
-            return Err((format!("this changes `{}`, which has a value already", cells[other].name), 0));
+            let name = &cells[other].name;
+            let what = both(
+                format!("this changes `{name}`, which has a value already"),
+                format!("すでに値のある `{name}` を変更しています"),
+            );
+            return Err((what, 0));
         }
         let mut uses: Vec<usize> = access.read.iter().filter_map(cell_of).collect();
         uses.sort_unstable();

@@ -3,8 +3,9 @@
 mod overlay;
 
 use super::Manifest;
-use crate::assignment::{AssignmentError, MANIFEST, both, error};
+use crate::assignment::{AssignmentError, MANIFEST, error};
 use crate::folder::Folder;
+use crate::text::both;
 use serde::Deserialize;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};

@@ -1,7 +1,7 @@
 //! What is wrong in a file that does not read as a manifest, as a person can mend it.
 
 use crate::Text;
-use crate::assignment::both;
+use crate::text::both;
 
 /// A name that is so far from another, in letters changed, is not what was meant.
 const FARTHEST: usize = 3;
@@ -35,8 +35,13 @@ pub(super) fn explained(message: &str) -> Text {
             format!("`{lacking}` がありません。`{lacking} = …` を書いてください"),
         ),
         ("invalid type", _) => of_type(message),
-        _ => message.to_owned().into(),
+        _ => unread(message),
     }
+}
+
+/// What the reader of TOML says; it speaks English.
+fn unread(message: &str) -> Text {
+    both(message, format!("TOML として読めません ({message})"))
 }
 
 fn listed(names: &[&str]) -> String {
@@ -53,7 +58,7 @@ pub(super) fn nearest<'n>(found: &str, known: &[&'n str]) -> Option<&'n str> {
 /// `invalid type: integer `3`, expected a string`
 fn of_type(message: &str) -> Text {
     let rest = message.trim_start_matches("invalid type: ");
-    let Some((found, expected)) = rest.rsplit_once(", expected ") else { return message.to_owned().into() };
+    let Some((found, expected)) = rest.rsplit_once(", expected ") else { return unread(message) };
     let (en, ja) = match expected.trim() {
         "a string" => ("text between quotation marks, \"…\"", "引用符で囲んだ文字列 \"…\""),
         "f64" => ("a number", "数"),

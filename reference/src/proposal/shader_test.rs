@@ -6,8 +6,9 @@ mod homework;
 
 use super::Given;
 use super::source::wrong;
-use crate::assignment::{AssignmentError, both};
+use crate::assignment::AssignmentError;
 use crate::interpreter::outline;
+use crate::text::both;
 use drawing::{TestDraw, VertexData};
 use std::collections::BTreeMap;
 

@@ -1,9 +1,10 @@
 //! A solution as a lecturer gives it.
 
 use super::Given;
-use crate::assignment::{AssignmentError, both};
+use crate::assignment::AssignmentError;
 use crate::interpreter::{Program, Refusal, Stage, outline};
 use crate::page::{self, Page};
+use crate::text::both;
 
 /// A solution, compiled.
 pub(super) struct SolutionFile {
@@ -192,8 +193,8 @@ fn on_page(text: &str, page: &Page) -> (String, u32) {
 /// What the interpreter says of a solution, with the place in the file as it was given.
 fn refused(name: &str, text: &str, refusal: &Refusal, added: u32) -> AssignmentError {
     let line = refusal.line.saturating_sub(added);
-    let lacks = refusal.what().strip_prefix("there is no variable `").and_then(|rest| rest.split('`').next());
-    let mut message = both(refusal.what(), refusal.what());
+    let lacks = refusal.what().en.strip_prefix("there is no variable `").and_then(|rest| rest.split('`').next());
+    let mut message = refusal.what().clone();
     let declared = lacks.and_then(|name| FREE_IN_THREE.iter().find(|(known, _)| *known == name));
     if let Some((known, said)) = declared {
         message.en += &format!(": three.js declares `{known}` by itself; write `{said}` behind #version");

@@ -7,9 +7,10 @@ mod plain;
 
 use super::FolderPlan;
 use super::source::SolutionFile;
-use crate::assignment::{AssignmentError, both};
+use crate::assignment::AssignmentError;
 use crate::interpreter::outline;
 use crate::interpreter::{Program, Type};
+use crate::text::{Text, both};
 use plain::{assigned, path_in, plain, written_parameters};
 use std::ops::RangeInclusive;
 
@@ -229,16 +230,16 @@ fn compiles(source: &SolutionFile, starter: &str) -> Result<(), AssignmentError>
     let line = starter.lines().nth((refusal.line as usize).saturating_sub(1)).unwrap_or_default().trim();
     // The same line of the solution, where it is known to the lecturer.
     let same = source.text.lines().position(|own| own.trim() == line && !line.is_empty()).map_or(0, |at| at as u32 + 1);
-    let what = refusal.what();
+    let Text { en, ja } = refusal.what();
     Err(source.wrong(
         same,
         both(
             format!(
-                "without what stands between the marks this does not compile: {what}. Write `{MARK} instead …` between the marks, with \
+                "without what stands between the marks this does not compile: {en}. Write `{MARK} instead …` between the marks, with \
                  what the starter has in their place, such as `{MARK} instead vec3 name = vec3(0.0);`"
             ),
             format!(
-                "印の間を取り除くとコンパイルできません: {what}。配布ファイルに代わりに置く文を、印の間に `{MARK} instead …` と書いてください \
+                "印の間を取り除くとコンパイルできません: {ja}。配布ファイルに代わりに置く文を、印の間に `{MARK} instead …` と書いてください \
                  (例: `{MARK} instead vec3 name = vec3(0.0);`)"
             ),
         ),

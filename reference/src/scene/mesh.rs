@@ -5,7 +5,7 @@ mod file;
 mod shapes;
 
 use super::Vertex;
-use crate::assignment::both;
+use crate::text::both;
 use crate::{Folder, Text};
 use glam::{DVec2, DVec3};
 use schemars::JsonSchema;

@@ -4,7 +4,7 @@ use super::TexturePicture;
 use super::noise::Noise;
 use super::sky::Sky;
 use crate::Text;
-use crate::assignment::both;
+use crate::text::both;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::fmt::Display;

@@ -3,7 +3,7 @@
 use super::TexturePicture;
 use super::generator::{Colour, painted, within};
 use crate::Text;
-use crate::assignment::both;
+use crate::text::both;
 use glam::DVec3;
 use schemars::JsonSchema;
 use serde::Deserialize;

@@ -31,7 +31,7 @@ pub fn run(arguments: &NewArguments, language: Language) -> Result<ExitStatus, F
         Ok(proposal) => proposal,
         Err(error) => {
             let text = error.text();
-            return refused(&Text::new(text.en, text.ja));
+            return refused(&text.into());
         }
     };
     write(folder, &proposal).map_err(|(path, error)| file_fault(&writing(), &path, &error))?;

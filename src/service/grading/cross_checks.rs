@@ -8,6 +8,7 @@ use crate::cross_check::{CrossCheck, Opinion};
 use crate::fault::Fault;
 use crate::grade::Order;
 use crate::hand_in::HandIn;
+use crate::language::Text;
 use crate::report::{Report, Verdict};
 use crate::sandbox;
 use crate::service::store::{StoreError, Submission, Via, word};
@@ -155,8 +156,15 @@ async fn cross_check(state: &State, submission: &Submission, hand_in: HandIn) ->
     match graded.await {
         Ok(Ok(Report { cross_check: Some(checked), .. })) => checked,
         // Time ran out, or the worker ended: the report stands all the same.
-        Ok(Ok(report)) => CrossCheck::not_run(&format!("its second run ended as {}", word(&report.verdict)), None),
-        Ok(Err(Fault { message, .. })) => CrossCheck::not_run(&message.en, None),
-        Err(problem) => CrossCheck::not_run(&problem.detail.en, None),
+        Ok(Ok(report)) => {
+            let verdict = word(&report.verdict);
+            let why = Text::new(
+                format!("its second run ended as {verdict}"),
+                format!("2 回目の実行の結果が {verdict} でした"),
+            );
+            CrossCheck::not_run(why, None)
+        }
+        Ok(Err(Fault { message, .. })) => CrossCheck::not_run(message, None),
+        Err(problem) => CrossCheck::not_run(problem.detail, None),
     }
 }

@@ -3,8 +3,9 @@
 use super::CheckResult;
 use super::solution::CheckedSolution;
 use crate::advice::{Advice, Circumstance};
-use crate::assignment::{Constant, Interface, both, error};
+use crate::assignment::{Constant, Interface, error};
 use crate::equation::Reads;
+use crate::text::both;
 use crate::{Value, manifest};
 
 /// An entry whose names are known.

@@ -2,13 +2,14 @@
 
 use super::{CheckResult, solution};
 use crate::Assignment;
-use crate::assignment::{MANIFEST, both, error};
+use crate::assignment::{MANIFEST, error};
 use crate::equation::Reads;
 use crate::frames::VertexStage;
 use crate::interpreter::{Program, Stage, UndefinedCause};
 use crate::pipeline::{Pipeline, positions, scalars};
 use crate::rasteriser::Frame;
 use crate::scene::Pose;
+use crate::text::both;
 use std::collections::HashSet;
 
 /// So many vertices are looked at, spread over all pictures.
@@ -25,7 +26,10 @@ pub(super) fn are_defined(assignment: &Assignment) -> CheckResult<()> {
         let Pipeline { vertex, fragment, .. } = &answer.pipeline;
         let mut given = vertex.uniforms().iter().chain(fragment.uniforms()).chain(vertex.inputs());
         if let Some(other) = given.find(|one| !known.contains(one.name.as_str()) && !one.name.starts_with("gl_")) {
-            let message = format!("`{}` is not among the inputs and uniforms of {MANIFEST}: remove it", other.name);
+            let message = both(
+                format!("`{}` is not among the inputs and uniforms of {MANIFEST}: remove it", other.name),
+                format!("`{}` は {MANIFEST} の入力にも uniform 変数にもありません。取り除いてください", other.name),
+            );
             return Err(error(solution::place(&answer.name, other.line), message));
         }
     }

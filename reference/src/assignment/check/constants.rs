@@ -3,9 +3,10 @@
 use super::CheckResult;
 use super::solution::{place, refused};
 use crate::Value;
-use crate::assignment::{Constant, HandedIn, both, error};
+use crate::assignment::{Constant, HandedIn, error};
 use crate::interpreter::{Cell, Draft};
 use crate::manifest;
+use crate::text::both;
 
 /// What a file defines of the constants: each with its numbers.
 type Defined = Vec<(Cell, Vec<f64>)>;
@@ -52,7 +53,10 @@ pub(super) fn constants(files: &[HandedIn], entries: Vec<manifest::Constant>) ->
             && (theirs != numbers || other.kind != cell.kind)
         {
             let (solution, line) = (&file.solution.name, cell.line);
-            let message = format!("`{name}` is not what it is in {solution}, line {line}: write the same in both");
+            let message = both(
+                format!("`{name}` is not what it is in {solution}, line {line}: write the same in both"),
+                format!("`{name}` が {solution} の {line} 行目と異なります。両方に同じものを書いてください"),
+            );
             return Err(error(place(&file.starter_name, other.line), message));
         }
         let value = Value::new(cell.kind.clone(), numbers.clone()).ok_or_else(missing)?;

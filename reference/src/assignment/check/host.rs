@@ -2,9 +2,10 @@
 
 use super::{CheckResult, solution};
 use crate::AssignmentError;
-use crate::assignment::{HandedIn, HostProgram, MANIFEST, Solution, both, error};
+use crate::assignment::{HandedIn, HostProgram, MANIFEST, Solution, error};
 use crate::host::{HostArray, Notice, UnreadableProgram};
 use crate::manifest::{self, Stage};
+use crate::text::both;
 
 /// The solution as a shader, and how what is handed in becomes one, where the file is a program.
 pub(super) fn program(

@@ -8,11 +8,12 @@ use super::scene::expression;
 use super::solution::{self, CheckedSolution};
 use super::stages::{Compiled, Stages};
 use crate::Text;
-use crate::assignment::{AssignmentError, Input, Interface, MANIFEST, Uniform, both, error};
+use crate::assignment::{AssignmentError, Input, Interface, MANIFEST, Uniform, error};
 use crate::feed::{Feed, Role, Stream};
 use crate::free::Free;
 use crate::interpreter::{ProgramVariable, Stage, Texture, Type};
 use crate::manifest::{self, Manifest};
+use crate::text::both;
 use samplers::FolderSamplers;
 
 /// More uniforms, each part counted, than this are refused.
@@ -138,7 +139,7 @@ fn of_key(key: &str, leaf: &str, kind: &Type, what: &Text) -> Text {
 }
 
 impl InterfaceReader<'_> {
-    fn wrong(&self, at: usize, place: &str, message: impl Into<Text>) -> AssignmentError {
+    fn wrong(&self, at: usize, place: &str, message: Text) -> AssignmentError {
         error(format!("{}, {place}", (self.place_at)(at)), message)
     }
 

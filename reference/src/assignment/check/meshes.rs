@@ -2,8 +2,9 @@
 
 use super::CheckResult;
 use crate::Folder;
-use crate::assignment::{AssignmentError, both, error};
+use crate::assignment::{AssignmentError, error};
 use crate::scene::{Mesh, MeshError, Shape};
+use crate::text::both;
 use std::cell::RefCell;
 use std::collections::HashMap;
 use std::sync::Arc;

@@ -4,10 +4,11 @@ use super::solution::CheckedSolution;
 use super::variants::Variants;
 use super::{CheckResult, known_line};
 use crate::Text;
-use crate::assignment::{Constant, both, error};
+use crate::assignment::{Constant, error};
 use crate::interpreter::Type;
 use crate::manifest::{self, RubricLine, TermState};
 use crate::mistake::{Alternative, Condition, DefinitionOverride, FreeParameter, Mistake, MistakeForm};
+use crate::text::both;
 use crate::together::has_name;
 use serde::Deserialize;
 use std::collections::{BTreeMap, HashSet};
@@ -58,7 +59,7 @@ fn general(rubric: &[RubricLine], solution: &CheckedSolution<'_>) -> CheckResult
         mistake: Vec<manifest::Mistake>,
     }
     let read = toml::from_str(include_str!("general.toml"));
-    let General { mut mistake } = read.map_err(|e| error("general.toml", e.to_string()))?;
+    let General { mut mistake } = read.map_err(|e| error("general.toml", Text::verbatim(e.to_string())))?;
     for mistake in &mut mistake {
         let kept = |line: &RubricLine| {
             let kind = if solution.is_position(&line.judges) { "position" } else { "colour" };
@@ -105,7 +106,15 @@ fn mistake(
             let of = f.of.map(|name| {
                 let is_it = |constant: &Constant| constant.name == name && *constant.value.kind() == Type::FLOAT;
                 let found = constants.iter().position(is_it);
-                found.ok_or_else(|| error(&place, format!("there is no float constant `{name}`")))
+                found.ok_or_else(|| {
+                    error(
+                        &place,
+                        both(
+                            format!("there is no float constant `{name}`"),
+                            format!("float 型の定数 `{name}` がありません"),
+                        ),
+                    )
+                })
             });
             let of = of.transpose()?;
             Some(FreeParameter { name: f.name, from: f.from, to: f.to, example: f.example, turns: f.turns, of })

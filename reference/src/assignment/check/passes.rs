@@ -3,10 +3,11 @@
 use super::scene::expression;
 use super::stages::compiled;
 use super::{CheckResult, listed, textures};
-use crate::assignment::{AssignmentError, Interface, both, error};
+use crate::assignment::{AssignmentError, Interface, error};
 use crate::interpreter::{Stage, Texels, Texture, Type};
 use crate::manifest::{Format, Manifest};
 use crate::scene::{DepthPass, DepthTest, Pass, Scene};
+use crate::text::both;
 
 /// Adds the pass to the scene, and says how its texture is drawn. `textures` are those of the manifest, then those of all pictures.
 pub(super) fn pass(

@@ -2,11 +2,12 @@
 
 use super::solution::CheckedSolution;
 use super::{CheckResult, listed};
-use crate::assignment::{Assignment, Attribute, Constant, Input, Stream, both, error};
+use crate::assignment::{Assignment, Attribute, Constant, Input, Stream, error};
 use crate::equation::{Definition, Reads};
 use crate::interpreter::Type;
 use crate::manifest::{self, RubricLine};
 use crate::probes::{Aim, Design, Normal, Probing, Region};
+use crate::text::both;
 use std::collections::HashSet;
 use std::ops::RangeInclusive;
 
@@ -17,7 +18,13 @@ pub(super) fn probing(
     solution: &CheckedSolution<'_>,
 ) -> CheckResult<Probing> {
     if entry.groups == 0 || entry.per_group == 0 {
-        return Err(error("probes", "there are none: `groups` and `per_group` are 1 or more"));
+        return Err(error(
+            "probes",
+            both(
+                "there are none: `groups` and `per_group` are 1 or more",
+                "検査点がありません。`groups` と `per_group` は 1 以上にしてください",
+            ),
+        ));
     }
     if !entry.design.is_empty() && solution.reads() != Reads::Attributes {
         let message = both(
@@ -37,7 +44,10 @@ fn aim(entry: &manifest::Probes, constants: &[Constant], solution: &CheckedSolut
     if power.is_none() && (!entry.power.is_empty() || entry.design.iter().any(|design| design.raised.is_some())) {
         return Err(error(
             "probes",
-            format!("there is no float constant `{}`: `raised` needs it as `power`", entry.power),
+            both(
+                format!("there is no float constant `{}`: `raised` needs it as `power`", entry.power),
+                format!("float 型の定数 `{}` がありません。`raised` には `power` として必要です", entry.power),
+            ),
         ));
     }
     let direction = |name: &str| solution.definition_of(name, &Type::VEC3, &place);
@@ -51,13 +61,29 @@ fn design(entry: &manifest::Design, number: usize, solution: &CheckedSolution<'_
     let range = |range: manifest::Range, lowest: f64, highest: f64| -> CheckResult<RangeInclusive<f64>> {
         let [from, to] = range;
         let is_range = lowest <= from && from <= to && to <= highest;
-        let wrong = || error(&place, format!("[{from}, {to}] is no range within [{lowest}, {highest}]"));
+        let wrong = || {
+            error(
+                &place,
+                both(
+                    format!("[{from}, {to}] is no range within [{lowest}, {highest}]"),
+                    format!("[{from}, {to}] は [{lowest}, {highest}] に含まれる範囲ではありません"),
+                ),
+            )
+        };
         is_range.then_some(from..=to).ok_or_else(wrong)
     };
     let normal = match (entry.cosine, entry.raised) {
         (Some(cosine), None) => Normal::Cosine(range(cosine, -1.0, 1.0)?),
         (None, Some(raised)) => Normal::Raised(range(raised, 0.0, 1.0)?),
-        _ => return Err(error(&place, "write one of `cosine` and `raised`: how the normal stands")),
+        _ => {
+            return Err(error(
+                &place,
+                both(
+                    "write one of `cosine` and `raised`: how the normal stands",
+                    "法線の向きを表す `cosine` と `raised` のどちらか一方を書いてください",
+                ),
+            ));
+        }
     };
     let within = entry.within.iter().map(|(name, values)| {
         let definition = solution.definition_of(name, &Type::FLOAT, &|| place.clone())?;
@@ -83,9 +109,13 @@ pub(super) fn lobe_is_known(assignment: &Assignment) -> CheckResult<()> {
     let mut definitions = equation.definitions().iter().enumerate().filter(|(on, _)| equation.depends(lobe, *on));
     match definitions.find(uses_normal) {
         None => Ok(()),
-        Some((_, Definition { name, .. })) => {
-            Err(error("probes", format!("the lobe depends on the normal by `{name}`: name a direction that does not")))
-        }
+        Some((_, Definition { name, .. })) => Err(error(
+            "probes",
+            both(
+                format!("the lobe depends on the normal by `{name}`: name a direction that does not"),
+                format!("ローブが `{name}` を通じて法線に依存しています。法線に依存しない方向を指定してください"),
+            ),
+        )),
     }
 }
 
@@ -104,7 +134,7 @@ pub(super) fn regions(
             format!("{first}, region `{}`", entry.id)
         };
         if !ids.insert(entry.id.clone()) {
-            return Err(error(place(), "stands twice"));
+            return Err(error(place(), both("stands twice", "同じものが 2 回あります")));
         }
         let when = solution.condition(entry.when.get_ref(), &place)?;
         regions.push(Region { when, id: entry.id, seen: entry.seen, shows_clamps: entry.shows_clamps });
@@ -112,7 +142,10 @@ pub(super) fn regions(
     for line in rubric {
         if let Some(unknown) = line.alone_in.iter().find(|id| !ids.contains(*id)) {
             let known = listed(regions.iter().map(|region| region.id.as_str()));
-            let message = format!("there is no region `{unknown}`, only {known}");
+            let message = both(
+                format!("there is no region `{unknown}`, only {known}"),
+                format!("領域 `{unknown}` はありません (あるもの: {known})"),
+            );
             return Err(error(format!("rubric line `{}`", line.id), message));
         }
     }

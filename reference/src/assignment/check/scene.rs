@@ -3,11 +3,13 @@
 use super::CheckResult;
 use super::meshes::Meshes;
 use crate::Folder;
-use crate::assignment::{AssignmentError, both, error};
+use crate::Text;
+use crate::assignment::{AssignmentError, error};
 use crate::feed::FeedExpression;
 use crate::interpreter::Type;
 use crate::manifest::{self, Depth, Poses};
 use crate::scene::{Draw, Mesh, Model, Point, Scene, Vertex, View};
+use crate::text::both;
 use glam::DVec3;
 use std::sync::Arc;
 use toml::Spanned;
@@ -146,10 +148,10 @@ impl SceneReader<'_> {
                 manifest::Point::Numbers(point) => Ok(Point::Fixed(DVec3::from_array(*point))),
                 manifest::Point::Expression(text) => {
                     let expression = FeedExpression::compile(text, &Type::vector(3));
-                    let wrong = |what: &str| {
+                    let wrong = |what: &Text| {
                         let message = both(
-                            format!("{what}: write three numbers, or a vec3 of `t`"),
-                            format!("{what}: 3 つの数、または `t` の vec3 の式を書いてください"),
+                            format!("{}: write three numbers, or a vec3 of `t`", what.en),
+                            format!("{}。3 つの数、または `t` の vec3 の式を書いてください", what.ja),
                         );
                         error(format!("scene, `{key}`"), message)
                     };
@@ -296,11 +298,17 @@ pub(super) fn expression(
     place: &str,
     place_at: &dyn Fn(usize) -> String,
 ) -> CheckResult<FeedExpression> {
-    let wrong = |what: &str| -> AssignmentError {
+    let wrong = |what: &Text| -> AssignmentError {
         let line = place_at(text.span().start);
         let message = both(
-            format!("{what}: write an expression of type {kind} with `t`, `i`, `scene`, `resolution`, `turn` and `pi`"),
-            format!("{what}: `t`、`i`、`scene`、`resolution`、`turn`、`pi` を使った {kind} 型の式を書いてください"),
+            format!(
+                "{}: write an expression of type {kind} with `t`, `i`, `scene`, `resolution`, `turn` and `pi`",
+                what.en
+            ),
+            format!(
+                "{}。`t`、`i`、`scene`、`resolution`、`turn`、`pi` を使った {kind} 型の式を書いてください",
+                what.ja
+            ),
         );
         error(format!("{line}, {place}"), message)
     };

@@ -1,11 +1,13 @@
 //! The solution: what is right, as a shader computes it, and what `assignment.toml` says of its names.
 
 use super::{CheckResult, listed};
-use crate::assignment::{AssignmentError, Constant, HandedIn, Interface, Output, both, error};
+use crate::Text;
+use crate::assignment::{AssignmentError, Constant, HandedIn, Interface, Output, error};
 use crate::equation::{Definition, Equation, MAX_INPUTS, Reads};
 use crate::interpreter::{Cell, Draft, Formula, Refusal, Stage, StoredOutput, Texture, Type};
 use crate::manifest::{self, Manifest};
 use crate::pipeline::Pipeline;
+use crate::text::both;
 use std::sync::Arc;
 
 /// Definitions are held as the bits of a u64.
@@ -131,7 +133,7 @@ impl<'a> CheckedSolution<'a> {
         self.reads
     }
 
-    pub(super) fn wrong(&self, line: u32, message: impl Into<crate::Text>) -> AssignmentError {
+    pub(super) fn wrong(&self, line: u32, message: Text) -> AssignmentError {
         error(place(&self.file.solution.name, line), message)
     }
 
@@ -183,7 +185,7 @@ impl<'a> CheckedSolution<'a> {
     pub(super) fn definition_of(&self, name: &str, kind: &Type, place: &dyn Fn() -> String) -> CheckResult<usize> {
         let definition = self.definition(name, place)?;
         let found = &self.definitions()[definition].kind;
-        let other = || error(place(), format!("`{name}` is a {found}, and has to be a {kind}"));
+        let other = || error(place(), other_type(name, found, kind));
         (found == kind).then_some(definition).ok_or_else(other)
     }
 
@@ -192,7 +194,12 @@ impl<'a> CheckedSolution<'a> {
         self.draft.condition(text).map_err(|refusal| {
             let known =
                 listed(self.draft.cells().iter().map(|cell| cell.name.as_str()).filter(|name| !name.is_empty()));
-            error(place(), format!("{}: write an expression of type bool with {known}", refusal.what()))
+            let Text { en, ja } = refusal.what();
+            let message = both(
+                format!("{en}: write an expression of type bool with {known}"),
+                format!("{ja}。{known} を使った bool 型の式を書いてください"),
+            );
+            error(place(), message)
         })
     }
 
@@ -225,7 +232,12 @@ impl<'a> CheckedSolution<'a> {
         };
         let formula = self.draft.replacement(cell, text, free).map_err(|refusal| {
             let kind = &self.draft.cells()[cell].kind;
-            error(place(), format!("{}: write an expression of type {kind} with {}", refusal.what(), allowed(self)))
+            let (Text { en, ja }, allowed) = (refusal.what(), allowed(self));
+            let message = both(
+                format!("{en}: write an expression of type {kind} with {allowed}"),
+                format!("{ja}。{allowed} を使った {kind} 型の式を書いてください"),
+            );
+            error(place(), message)
         })?;
         let parameter = self.draft.cells().len() - 1;
         if let Some(used) = formula.uses().iter().find(|used| **used >= cell && **used != parameter) {
@@ -247,7 +259,10 @@ impl<'a> CheckedSolution<'a> {
     fn few_enough(&self, formula: &Formula, place: &dyn Fn() -> String) -> CheckResult<()> {
         let used = formula.uses().iter().filter(|cell| **cell >= self.first);
         if used.count() > MAX_INPUTS {
-            let message = format!("uses more than {MAX_INPUTS} definitions: name a part of it first");
+            let message = both(
+                format!("uses more than {MAX_INPUTS} definitions: name a part of it first"),
+                format!("使っている定義が {MAX_INPUTS} 個を超えています。先に一部に名前を付けてください"),
+            );
             return Err(error(place(), message));
         }
         Ok(())
@@ -321,24 +336,49 @@ impl<'a> CheckedSolution<'a> {
     fn output(&self, name: Option<&str>) -> CheckResult<usize> {
         let is_it = |output: &str| name.map_or(output != POSITION, |name| output == name);
         let mut stored = self.draft.stored().iter().filter(|stored| is_it(&stored.output));
-        let missing = || match name {
-            Some(name) => self.wrong(0, format!("`{name}` has no value: write `{name} = …;` at the end of `main`")),
+        let missing = || {
+            match name {
+            Some(name) => self.wrong(
+                0,
+                both(
+                    format!("`{name}` has no value: write `{name} = …;` at the end of `main`"),
+                    format!("`{name}` に値がありません。`main` の最後に `{name} = …;` と書いてください"),
+                ),
+            ),
             None => self.wrong(
                 0,
-                "no output has a value: declare `out vec4 a_name;`, and write `a_name = …;` at the end of `main`",
+                both(
+                    "no output has a value: declare `out vec4 a_name;`, and write `a_name = …;` at the end of `main`",
+                    "値のある出力がありません。`out vec4 a_name;` と宣言し、`main` の最後に `a_name = …;` と書いてください",
+                ),
             ),
+        }
         };
         let one = stored.next().ok_or_else(missing)?;
         if let Some(other) = stored.next() {
-            return Err(self.wrong(other.line, "this is one output too many: only one beside gl_Position is compared"));
+            return Err(self.wrong(
+                other.line,
+                both(
+                    "this is one output too many: only one beside gl_Position is compared",
+                    "出力が多すぎます。`gl_Position` のほかに比較する出力は 1 つだけです",
+                ),
+            ));
         }
         let kind = &self.draft.cells()[one.cell].kind;
         let is_colour_of_fragment = self.reads == Reads::Varyings && *kind == Type::VEC3;
         if *kind != Type::VEC4 && !is_colour_of_fragment {
-            return Err(self.wrong(one.line, format!("`{}` is a {kind}, and has to be a vec4", one.output)));
+            return Err(self.wrong(one.line, other_type(&one.output, kind, &Type::VEC4)));
         }
         Ok(one.cell - self.first)
     }
+}
+
+/// The message about something of another type than the one it has to have.
+fn other_type(name: &str, found: &Type, wanted: &Type) -> Text {
+    both(
+        format!("`{name}` is a {found}, and has to be a {wanted}"),
+        format!("`{name}` の型は {found} ですが、{wanted} でなければなりません"),
+    )
 }
 
 /// A place in a file.
@@ -348,5 +388,5 @@ pub(super) fn place(file: &str, line: u32) -> String {
 
 /// What the interpreter has to say of a file.
 pub(super) fn refused(file: &str, refusal: &Refusal) -> AssignmentError {
-    error(place(file, refusal.line), refusal.what())
+    error(place(file, refusal.line), refusal.what().clone())
 }

@@ -2,10 +2,11 @@
 
 use super::{CheckResult, solution};
 use crate::accepted::AcceptedAnswer;
-use crate::assignment::{FixedStage, HandedIn, both, error};
+use crate::assignment::{FixedStage, HandedIn, error};
 use crate::interpreter::{Program, Stage};
 use crate::manifest;
 use crate::pipeline::Pipeline;
+use crate::text::{Text, both};
 use std::sync::Arc;
 
 /// A stage, compiled.
@@ -28,15 +29,22 @@ impl Stages {
         for (name, stage, text) in handed_in.chain(fixed) {
             let compiled = compiled(name, stage.into(), text)?;
             if let Some(other) = stages.iter().find(|other| other.stage == compiled.stage) {
-                let message = format!("is a second stage of this kind, beside {}: keep one", other.name);
+                let message = both(
+                    format!("is a second stage of this kind, beside {}: keep one", other.name),
+                    format!("同じ種類のステージが {} にもあります。一つだけにしてください", other.name),
+                );
                 return Err(error(name, message));
             }
             stages.push(compiled);
         }
         for (stage, word) in [(Stage::Vertex, "vertex"), (Stage::Fragment, "fragment")] {
             if !stages.iter().any(|known| known.stage == stage) {
-                let message =
-                    format!("there is no {word} stage: write [[file]] or [[fixed]] with `stage = \"{word}\"`");
+                let message = both(
+                    format!("there is no {word} stage: write [[file]] or [[fixed]] with `stage = \"{word}\"`"),
+                    format!(
+                        "{word} ステージがありません。`stage = \"{word}\"` の [[file]] または [[fixed]] を書いてください"
+                    ),
+                );
                 return Err(error("file", message));
             }
         }
@@ -52,7 +60,10 @@ impl Stages {
     pub fn pipeline(&self) -> CheckResult<Pipeline> {
         let [vertex, fragment] = [Stage::Vertex, Stage::Fragment].map(|stage| self.get(stage));
         let linked = Pipeline::link(&vertex.program, &fragment.program, None);
-        linked.map_err(|what| error(&fragment.name, format!("{what} ({})", vertex.name)))
+        linked.map_err(|Text { en, ja }| {
+            let name = &vertex.name;
+            error(&fragment.name, both(format!("{en} ({name})"), format!("{ja} ({name})")))
+        })
     }
 
     /// Other answers for a stage, linked with the stages of the other kind.

@@ -4,9 +4,10 @@ mod pictures;
 
 use super::{CheckResult, passes};
 use crate::Folder;
-use crate::assignment::{AssignmentError, both, error};
+use crate::assignment::{AssignmentError, error};
 use crate::interpreter::{Compare, Depths, Filter, Scalar, Texels, Texture, Wrap};
 use crate::manifest::{self, Format};
+use crate::text::both;
 use pictures::TextureShape;
 
 /// More textures than this are refused: OpenGL promises room for so many in a stage.

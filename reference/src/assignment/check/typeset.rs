@@ -1,8 +1,10 @@
 //! The equation as the lecture writes it.
 
 use super::{CheckResult, known_line};
-use crate::assignment::{both, error};
+use crate::Text;
+use crate::assignment::error;
 use crate::manifest;
+use crate::text::both;
 use crate::typeset::{SumPart, SymbolMeaning, Term, Typeset};
 use math_core::{LatexToMathML, MathDisplay};
 use std::collections::HashSet;
@@ -14,7 +16,8 @@ pub(super) fn typeset(
     lines: &HashSet<String>,
     place_at: &dyn Fn(usize) -> String,
 ) -> CheckResult<Typeset> {
-    let latex = LatexToMathML::new(Default::default()).map_err(|e| error("equation", format!("{e:?}")))?;
+    let latex =
+        LatexToMathML::new(Default::default()).map_err(|e| error("equation", Text::verbatim(format!("{e:?}"))))?;
     let formula = |text: &Spanned<String>| {
         let made = latex.convert_with_local_state(text.get_ref(), MathDisplay::Inline);
         let made = made.map_err(|refusal| {
@@ -22,7 +25,7 @@ pub(super) fn typeset(
             let found = text.get_ref().get(refusal.0.clone()).unwrap_or_default();
             let why = refusal.error_message();
             let message =
-                both(format!("`{found}` is not LaTeX: {why}"), format!("`{found}` は LaTeX として読めません: {why}"));
+                both(format!("`{found}` is not LaTeX: {why}"), format!("`{found}` は LaTeX として読めません ({why})"));
             error(format!("{place}, equation"), message)
         })?;
         let inside = made.mathml.strip_prefix("<math>").and_then(|rest| rest.strip_suffix("</math>"));

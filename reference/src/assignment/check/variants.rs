@@ -3,8 +3,9 @@
 use super::stages::Stages;
 use super::{CheckResult, listed};
 use crate::accepted::AcceptedAnswer;
-use crate::assignment::{HandedIn, both, error};
+use crate::assignment::{HandedIn, error};
 use crate::manifest;
+use crate::text::both;
 use crate::together::with_number;
 
 /// Makes programs of variants.

@@ -1,6 +1,7 @@
 //! Texture functions (GLSL 4.60, section 8.9): their names say what they take.
 
 use super::BuiltinCall;
+use crate::Text;
 use crate::interpreter::Stage;
 use crate::interpreter::code::{ArithmeticClass, Node, Operation, Slot};
 use crate::interpreter::compile::{CodeBuilder, ParameterDirection, Signature};
@@ -165,9 +166,9 @@ fn of_sampler(name: &str, sampler: Sampler) -> Vec<Signature> {
 
 impl BuiltinCall<'_> {
     /// Writes a texture function.
-    pub(super) fn lookup(&self, builder: &mut CodeBuilder) -> Result<Vec<Slot>, String> {
+    pub(super) fn lookup(&self, builder: &mut CodeBuilder) -> Result<Vec<Slot>, Text> {
         let form = LookupForm::of(self.name);
-        let Type::Sampler(sampler) = self.arguments[0].kind else { return Err(format!("the function {}", self.name)) };
+        let Type::Sampler(sampler) = self.arguments[0].kind else { return Err(self.unsupported()) };
         let to: Vec<Slot> = (0..self.result.slots().unwrap_or(0)).map(|_| builder.temporary()).collect();
         let mut query = Query {
             texture: self.arguments[0].slots[0],

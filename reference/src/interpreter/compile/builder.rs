@@ -4,6 +4,7 @@ use crate::interpreter::Refusal;
 use crate::interpreter::code::{ArithmeticClass, CodeConstant, Instruction, Node, Operation, Slot};
 use crate::interpreter::run::{Undefined, scalar, undefined_lanes};
 use crate::interpreter::types::Scalar;
+use crate::text::both;
 use std::collections::HashMap;
 
 /// Most scalars that a program's variables and constants have; ggrade's gate refuses far smaller ones before.
@@ -40,7 +41,10 @@ impl CodeBuilder {
     pub fn allocate(&mut self, count: usize) -> Result<Slot, Refusal> {
         let first = self.constants.len();
         if first.saturating_add(count) > MAX_SLOTS || self.is_full() {
-            return Err(Refusal::limit(self.line, "this program has too many variables or instructions"));
+            return Err(Refusal::limit(
+                self.line,
+                both("this program has too many variables or instructions", "プログラムの変数または命令が多すぎます"),
+            ));
         }
         self.constants.resize(first + count, None);
         Ok(first as Slot)

@@ -10,6 +10,7 @@ use crate::interpreter::code::Node;
 use crate::interpreter::run::Undefined;
 use crate::interpreter::syntax::{Expression, Name};
 use crate::interpreter::types::Type;
+use crate::text::both;
 
 /// What stands for a parameter.
 enum Argument {
@@ -40,7 +41,9 @@ impl Compiler {
         let own = self.by_name.get(name).cloned().unwrap_or_default();
         let built_in = builtin::signatures(name);
         if own.is_empty() && built_in.is_empty() {
-            return Err(self.limit(format!("there is no function `{name}`")));
+            return Err(
+                self.limit(both(format!("there is no function `{name}`"), format!("関数 `{name}` がありません")))
+            );
         }
         let arguments = self.arguments(arguments, &own, built_in)?;
         self.builder.line = line;
@@ -51,7 +54,10 @@ impl Compiler {
         let chosen = resolve(&candidates, &kinds, version).or_else(|| resolve(&candidates, &kinds, 400));
         let Some(chosen) = chosen else {
             let kinds = kinds.iter().map(Type::to_string).collect::<Vec<_>>().join(", ");
-            return Err(self.limit(format!("there is no function `{name}`({kinds})")));
+            return Err(self.limit(both(
+                format!("there is no function `{name}`({kinds})"),
+                format!("関数 `{name}`({kinds}) がありません"),
+            )));
         };
         let signature = candidates[chosen].clone();
         match own.get(chosen) {
@@ -113,7 +119,9 @@ impl Compiler {
                 self.passed(number, count, slot, &value);
             }
             if *direction != ParameterDirection::In {
-                let place = place.ok_or_else(|| self.invalid("this cannot be written by a function"))?;
+                let place = place.ok_or_else(|| {
+                    self.invalid(both("this cannot be written by a function", "関数はここに値を書き込めません"))
+                })?;
                 written.push((place, slot, kind.clone()));
             }
         }
@@ -147,7 +155,11 @@ impl Compiler {
                     values.push(self.implicit(value, kind)?);
                 }
                 (_, Argument::Place(place, _)) => places.push((place, kind.clone())),
-                (_, Argument::Value(_)) => return Err(self.invalid("this cannot be written by a function")),
+                (_, Argument::Value(_)) => {
+                    return Err(
+                        self.invalid(both("this cannot be written by a function", "関数はここに値を書き込めません"))
+                    );
+                }
             }
         }
         let call = builtin::BuiltinCall { name, arguments: &values, result: &signature.result, stage: self.stage };

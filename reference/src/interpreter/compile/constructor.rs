@@ -4,6 +4,7 @@ use super::{CompiledValue, Compiler, class};
 use crate::interpreter::Refusal;
 use crate::interpreter::code::Slot;
 use crate::interpreter::types::{Scalar, Type};
+use crate::text::both;
 
 impl Compiler {
     /// `kind(arguments)`
@@ -27,13 +28,17 @@ impl Compiler {
                 let length = length.unwrap_or(arguments.len());
                 self.parts(element.clone().array(Some(length)), &vec![element; length.min(1 << 20)], arguments)
             }
-            Type::Void | Type::Sampler(_) => Err(self.invalid(format!("{kind} has no constructor"))),
+            Type::Void | Type::Sampler(_) => Err(self
+                .invalid(both(format!("{kind} has no constructor"), format!("{kind} にはコンストラクタがありません")))),
         }
     }
 
     fn parts(&mut self, kind: Type, kinds: &[Type], arguments: Vec<CompiledValue>) -> Result<CompiledValue, Refusal> {
         if kinds.len() != arguments.len() {
-            return Err(self.invalid(format!("{kind} is made of {} values", kinds.len())));
+            return Err(self.invalid(both(
+                format!("{kind} is made of {} values", kinds.len()),
+                format!("{kind} の値の個数は {} です", kinds.len()),
+            )));
         }
         let mut slots = Vec::new();
         for (argument, kind) in arguments.into_iter().zip(kinds) {
@@ -47,7 +52,12 @@ impl Compiler {
         let mut slots = Vec::new();
         for argument in arguments {
             let from = argument.kind.scalar();
-            let from = from.ok_or_else(|| self.invalid(format!("{} is not made of numbers", argument.kind)))?;
+            let from = from.ok_or_else(|| {
+                self.invalid(both(
+                    format!("{} is not made of numbers", argument.kind),
+                    format!("{} は数値から成る型ではありません", argument.kind),
+                ))
+            })?;
             slots.extend(self.converted(&argument.slots, from, scalar));
         }
         Ok(slots)
@@ -56,7 +66,9 @@ impl Compiler {
     fn vector(&mut self, scalar: Scalar, count: usize, arguments: &[CompiledValue]) -> Result<CompiledValue, Refusal> {
         let kind = Type::Vector(scalar, count as u8);
         // What the vector does not take of a longer one is not converted.
-        let first = arguments.first().ok_or_else(|| self.invalid(format!("{kind}() without a value")))?;
+        let first = arguments.first().ok_or_else(|| {
+            self.invalid(both(format!("{kind}() without a value"), format!("{kind}() に値がありません")))
+        })?;
         let mut slots = if arguments.len() == 1 && first.slots.len() > count {
             let shortened = CompiledValue { kind: first.kind.clone(), slots: first.slots[..count].to_vec() };
             self.components_of(&[shortened], scalar)?
@@ -67,7 +79,10 @@ impl Compiler {
             slots = vec![slots[0]; count];
         }
         if slots.len() < count {
-            return Err(self.invalid(format!("{kind} has {count} components, and {} are given", slots.len())));
+            return Err(self.invalid(both(
+                format!("{kind} has {count} components, and {} are given", slots.len()),
+                format!("{kind} の成分は {count} 個ですが、{} 個が与えられています", slots.len()),
+            )));
         }
         slots.truncate(count);
         Ok(CompiledValue { kind, slots })
@@ -92,7 +107,10 @@ impl Compiler {
         };
         let slots = match given {
             None if slots.len() < columns * rows => {
-                return Err(self.invalid(format!("{kind} has {} components", columns * rows)));
+                return Err(self.invalid(both(
+                    format!("{kind} has {} components", columns * rows),
+                    format!("{kind} の成分は {} 個です", columns * rows),
+                )));
             }
             None => slots[..columns * rows].to_vec(),
             Some((from_columns, from_rows)) => (0..columns * rows)

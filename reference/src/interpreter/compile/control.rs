@@ -5,6 +5,7 @@ use crate::interpreter::code::{Node, Slot};
 use crate::interpreter::syntax::{Declaration, Expression, LoopCondition, Name, Statement, StatementKind};
 use crate::interpreter::types::{Scalar, Type};
 use crate::interpreter::{Refusal, Stage};
+use crate::text::both;
 
 impl Compiler {
     /// A function's body.
@@ -48,12 +49,20 @@ impl Compiler {
                 self.builder.push(Node::Loop { test, condition, body, step, test_first: false, line });
             }
             StatementKind::Switch(selector, statements) => self.switch(selector, statements)?,
-            StatementKind::Case(_) => return Err(self.invalid("`case` stands only directly in a `switch`")),
+            StatementKind::Case(_) => {
+                return Err(self.invalid(both(
+                    "`case` stands only directly in a `switch`",
+                    "`case` は `switch` の直下にだけ書けます",
+                )));
+            }
             StatementKind::Break => self.builder.push(Node::Break),
             StatementKind::Continue => self.builder.push(Node::Continue),
             StatementKind::Return(value) => self.result(value.as_ref())?,
             StatementKind::Discard if self.stage == Stage::Fragment => self.builder.push(Node::Discard),
-            StatementKind::Discard => return Err(self.invalid("only fragments are discarded")),
+            StatementKind::Discard => {
+                return Err(self
+                    .invalid(both("only fragments are discarded", "`discard` はフラグメントシェーダでだけ使えます")));
+            }
         }
         self.end_statement(mark)
     }
@@ -74,7 +83,10 @@ impl Compiler {
     fn only(&self, value: &CompiledValue, kind: &Type) -> Result<Slot, Refusal> {
         match value.slots[..] {
             [slot] if value.kind == *kind => Ok(slot),
-            _ => Err(self.invalid(format!("{kind} is expected, not {}", value.kind))),
+            _ => Err(self.invalid(both(
+                format!("{kind} is expected, not {}", value.kind),
+                format!("{kind} が必要なところに {} があります", value.kind),
+            ))),
         }
     }
 
@@ -103,7 +115,10 @@ impl Compiler {
     fn declared_condition(&mut self, declaration: &Declaration) -> Result<Slot, Refusal> {
         self.plain_variables(declaration)?;
         let line = declaration.line;
-        let variable = declaration.variables.last().ok_or_else(|| self.invalid("a condition is expected"))?;
+        let variable = declaration
+            .variables
+            .last()
+            .ok_or_else(|| self.invalid(both("a condition is expected", "条件 (bool の値) が必要です")))?;
         let kind = crate::interpreter::syntax::ExpressionKind::Name(Name::clone(&variable.name));
         self.truth(&Expression { line, changes: false, kind })
     }
@@ -112,7 +127,9 @@ impl Compiler {
         let line = self.builder.line;
         let selector = self.value(selector)?;
         let scalar = selector.kind.scalar().filter(|scalar| scalar.is_integer() && selector.kind.is_scalar());
-        let scalar = scalar.ok_or_else(|| self.invalid("`switch` takes an integer"))?;
+        let scalar = scalar.ok_or_else(|| {
+            self.invalid(both("`switch` takes an integer", "`switch` の値は整数でなければなりません"))
+        })?;
         let mut cases: Vec<(Vec<Option<f64>>, Vec<Node>)> = Vec::new();
         self.scopes.push();
         let mut rest = statements;
@@ -121,7 +138,9 @@ impl Compiler {
                 let end = rest.iter().position(|one| matches!(one.kind, StatementKind::Case(_)));
                 let (of_case, after) = rest.split_at(end.unwrap_or(rest.len()));
                 let (mut nodes, ()) = self.nodes(|compiler| compiler.statements(of_case))?;
-                let case = cases.last_mut().ok_or_else(|| self.invalid("this stands before the first `case`"))?;
+                let case = cases.last_mut().ok_or_else(|| {
+                    self.invalid(both("this stands before the first `case`", "最初の `case` より前に文があります"))
+                })?;
                 case.1.append(&mut nodes);
                 rest = after;
                 continue;
@@ -147,7 +166,9 @@ impl Compiler {
     }
 
     fn result(&mut self, value: Option<&Expression>) -> Result<(), Refusal> {
-        let current = self.current.ok_or_else(|| self.invalid("`return` stands outside of a function"))?;
+        let current = self.current.ok_or_else(|| {
+            self.invalid(both("`return` stands outside of a function", "関数の外に `return` があります"))
+        })?;
         if let Some(value) = value {
             let value = self.value(value)?;
             let kind = self.functions[current].signature.result.clone();

@@ -3,6 +3,7 @@
 use super::{CompiledValue, Compiler};
 use crate::interpreter::Refusal;
 use crate::interpreter::types::{Scalar, Type};
+use crate::text::both;
 
 /// How a parameter is passed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -77,7 +78,10 @@ impl Compiler {
         }
         // Versions before 1.20 convert nothing; drivers that take a file nevertheless convert as later ones.
         if rank(&value.kind, kind, self.version.max(400)).is_none() {
-            return Err(self.invalid(format!("{} is not {kind}", value.kind)));
+            return Err(self.invalid(both(
+                format!("{} is not {kind}", value.kind),
+                format!("{} は {kind} ではありません", value.kind),
+            )));
         }
         let (Some(from), Some(to)) = (value.kind.scalar(), kind.scalar()) else { return Ok(value) };
         Ok(CompiledValue { kind: kind.clone(), slots: self.converted(&value.slots, from, to) })

@@ -10,6 +10,7 @@ use crate::interpreter::syntax::{
     BaseType, Declaration, DeclaredVariable, Expression, ExpressionKind, Function, Name, StorageQualifier, TypeName,
 };
 use crate::interpreter::types::{Scalar, Struct, Type};
+use crate::text::both;
 use std::sync::Arc;
 
 impl Compiler {
@@ -19,7 +20,9 @@ impl Compiler {
         let base = match &name.base {
             BaseType::Named(name) => match self.scopes.get(name) {
                 Some(Symbol::Structure(kind)) => kind.clone(),
-                _ => Type::named(name).ok_or_else(|| self.limit(format!("there is no type `{name}`")))?,
+                _ => Type::named(name).ok_or_else(|| {
+                    self.limit(both(format!("there is no type `{name}`"), format!("型 `{name}` がありません")))
+                })?,
             },
             BaseType::Struct(name, members) => self.structure(name, members)?,
         };
@@ -56,7 +59,12 @@ impl Compiler {
                 Some(length) => {
                     let value = self.constant_whole(length)?;
                     let length = Some(value).filter(|&value| value >= 1.0);
-                    Some(length.ok_or_else(|| self.invalid("an array's length must be positive"))? as usize)
+                    Some(length.ok_or_else(|| {
+                        self.invalid(both(
+                            "an array's length must be positive",
+                            "配列の長さは 1 以上でなければなりません",
+                        ))
+                    })? as usize)
                 }
                 None => None,
             };
@@ -70,12 +78,13 @@ impl Compiler {
         let value = self.untraced(|compiler| compiler.value(expression))?;
         let is_whole = value.kind.is_scalar() && value.kind.scalar().is_some_and(Scalar::is_integer);
         let known = value.slots.first().and_then(|&slot| self.builder.known(slot)).filter(|_| is_whole);
-        known.ok_or_else(|| self.invalid("a constant whole number is expected"))
+        known.ok_or_else(|| self.invalid(both("a constant whole number is expected", "整数の定数式が必要です")))
     }
 
     /// Slots for a variable of this type.
     pub(super) fn allocate(&mut self, kind: &Type) -> Result<Slot, Refusal> {
-        let size = scope::size(kind).ok_or_else(|| self.limit("this variable is too large"))?;
+        let size = scope::size(kind)
+            .ok_or_else(|| self.limit(both("this variable is too large", "この変数は大きすぎます")))?;
         self.builder.allocate(size)
     }
 
@@ -177,11 +186,19 @@ impl Compiler {
             other => match other.element() {
                 Some((element, length)) => vec![element; length.unwrap_or(elements.len())],
                 None if elements.len() == 1 => return self.initial_value(&elements[0], kind),
-                None => return Err(self.invalid(format!("{kind} has no parts"))),
+                None => {
+                    return Err(self.invalid(both(
+                        format!("{kind} has no parts"),
+                        format!("{kind} は `{{ }}` で初期化できません"),
+                    )));
+                }
             },
         };
         if kinds.len() != elements.len() {
-            return Err(self.invalid(format!("{kind} has {} parts", kinds.len())));
+            return Err(self.invalid(both(
+                format!("{kind} has {} parts", kinds.len()),
+                format!("{kind} の要素は {} 個です", kinds.len()),
+            )));
         }
         let mut slots = Vec::new();
         let mut element_kind = None;

@@ -8,6 +8,7 @@ use crate::interpreter::code::{ArithmeticClass, Node, Operation};
 use crate::interpreter::syntax::{Binary, Expression, ExpressionKind, Unary};
 use crate::interpreter::trace::What;
 use crate::interpreter::types::{Scalar, Type};
+use crate::text::both;
 
 impl Compiler {
     /// The value of an expression as it is computed.
@@ -51,7 +52,10 @@ impl Compiler {
                 self.construct(&kind, arguments)
             }
             ExpressionKind::Length(of) => self.length(of),
-            ExpressionKind::List(_) => Err(self.invalid("a list in braces stands only behind `=`")),
+            ExpressionKind::List(_) => {
+                Err(self
+                    .invalid(both("a list in braces stands only behind `=`", "波括弧の並びは `=` の後にだけ書けます")))
+            }
             ExpressionKind::Name(_) | ExpressionKind::Index(..) | ExpressionKind::Member(..) => {
                 match self.place(expression)? {
                     Some(place) => {
@@ -95,10 +99,15 @@ impl Compiler {
                     }
                 }
                 let Type::Vector(scalar, count) = value.kind else {
-                    return Err(self.invalid(format!("{} has no member `{name}`", value.kind)));
+                    return Err(self.invalid(both(
+                        format!("{} has no member `{name}`", value.kind),
+                        format!("{} にメンバ `{name}` はありません", value.kind),
+                    )));
                 };
                 let chosen = components(name, count);
-                let chosen = chosen.ok_or_else(|| self.invalid(format!("there is no component `{name}`")))?;
+                let chosen = chosen.ok_or_else(|| {
+                    self.invalid(both(format!("there is no component `{name}`"), format!("成分 `{name}` はありません")))
+                })?;
                 let slots: Vec<_> = chosen.iter().map(|&index| value.slots[index as usize]).collect();
                 Ok(CompiledValue { kind: Type::Vector(scalar, slots.len() as u8), slots })
             }
@@ -113,7 +122,7 @@ impl Compiler {
                 let place = self.element(place, &index)?;
                 self.read(&place)
             }
-            _ => Err(self.invalid("this has no value")),
+            _ => Err(self.invalid(both("this has no value", "値がありません"))),
         }
     }
 
@@ -123,17 +132,23 @@ impl Compiler {
             None => self.value(of)?.kind,
         };
         let element = kind.element();
-        let (_, length) = element.ok_or_else(|| self.invalid(format!("{kind} has no length")))?;
+        let (_, length) = element.ok_or_else(|| {
+            self.invalid(both(format!("{kind} has no length"), format!("{kind} には長さがありません")))
+        })?;
         let length = self.builder.whole(length.unwrap_or(UNSIZED) as f64);
         Ok(CompiledValue { kind: Type::INT, slots: vec![length] })
     }
 
     fn unary(&mut self, operator: Unary, operand: CompiledValue) -> Result<CompiledValue, Refusal> {
-        let scalar = operand.kind.scalar().ok_or_else(|| self.invalid("this has no sign"))?;
+        let scalar =
+            operand.kind.scalar().ok_or_else(|| self.invalid(both("this has no sign", "符号を付けられない値です")))?;
         let operation = match (operator, scalar) {
             (Unary::Plus, _) => return Ok(operand),
             (Unary::Minus, Scalar::Bool) | (Unary::Complement, Scalar::Bool | Scalar::Float | Scalar::Double) => {
-                return Err(self.invalid(format!("{} has no such operator", operand.kind)));
+                return Err(self.invalid(both(
+                    format!("{} has no such operator", operand.kind),
+                    format!("{} にこの演算子は使えません", operand.kind),
+                )));
             }
             (Unary::Minus, _) => Operation::Negate,
             (Unary::Not, _) => Operation::Not,
@@ -144,10 +159,15 @@ impl Compiler {
     }
 
     fn step(&mut self, adds: bool, after: bool, operand: &Expression) -> Result<CompiledValue, Refusal> {
-        let place = self.place(operand)?.ok_or_else(|| self.invalid("this cannot be changed"))?;
+        let place = self
+            .place(operand)?
+            .ok_or_else(|| self.invalid(both("this cannot be changed", "この値は変更できません")))?;
         let mut before = self.read(&place)?;
         before.slots = self.builder.copies(&before.slots);
-        let scalar = before.kind.scalar().ok_or_else(|| self.invalid("this cannot be counted"))?;
+        let scalar = before
+            .kind
+            .scalar()
+            .ok_or_else(|| self.invalid(both("this cannot be counted", "この値に `++` や `--` は使えません")))?;
         let class = super::class(scalar);
         let one = self.builder.number(class, 1.0);
         let operation = if adds { Operation::Add } else { Operation::Subtract };
@@ -208,7 +228,9 @@ impl Compiler {
         from: &Expression,
         line: u32,
     ) -> Result<CompiledValue, Refusal> {
-        let place = self.place(to)?.ok_or_else(|| self.invalid("this cannot be assigned to"))?;
+        let place = self
+            .place(to)?
+            .ok_or_else(|| self.invalid(both("this cannot be assigned to", "ここには代入できません")))?;
         let value = match operator {
             None => self.value(from)?,
             Some(operator) => {
@@ -236,7 +258,10 @@ impl Compiler {
     ) -> Result<CompiledValue, Refusal> {
         let line = self.builder.line;
         let mut condition = self.value(condition)?;
-        let condition_slot = *condition.slots.first().ok_or_else(|| self.invalid("a condition is expected"))?;
+        let condition_slot = *condition
+            .slots
+            .first()
+            .ok_or_else(|| self.invalid(both("a condition is expected", "条件 (bool の値) が必要です")))?;
         if !yes.changes && !no.changes {
             let (yes, no) = (self.value(yes)?, self.value(no)?);
             self.builder.line = line;
@@ -286,7 +311,10 @@ impl Compiler {
             return Ok((a, b));
         }
         let (Some(of_a), Some(of_b)) = (a.kind.scalar(), b.kind.scalar()) else {
-            return Err(self.invalid(format!("{} and {} are not of one type", a.kind, b.kind)));
+            return Err(self.invalid(both(
+                format!("{} and {} are not of one type", a.kind, b.kind),
+                format!("{} と {} の型が一致しません", a.kind, b.kind),
+            )));
         };
         let scalar = self.common_scalar(of_a, of_b)?;
         let kind = a.kind.with_scalar(scalar);

@@ -7,6 +7,7 @@ use crate::interpreter::run::Undefined;
 use crate::interpreter::syntax::{BaseType, Declaration, InterfaceBlock, Name, Qualifiers, StorageQualifier};
 use crate::interpreter::types::{Struct, Type};
 use crate::interpreter::{Refusal, Stage, builtin};
+use crate::text::both;
 use std::sync::Arc;
 
 /// What a shader without a host's number reads: as many as OpenGL has of anything.
@@ -21,7 +22,10 @@ impl Compiler {
             StorageQualifier::Plain | StorageQualifier::Constant => return self.plain_variables(declaration),
             StorageQualifier::Shared => {
                 for variable in &declaration.variables {
-                    self.scopes.declare(Name::clone(&variable.name), Symbol::Unsupported("shared memory"));
+                    self.scopes.declare(
+                        Name::clone(&variable.name),
+                        Symbol::Unsupported(["shared memory is not supported", "共有メモリには対応していません"]),
+                    );
                 }
                 return Ok(());
             }
@@ -29,7 +33,13 @@ impl Compiler {
         }
         if storage == StorageQualifier::Uniform && is_opaque(declaration) {
             for variable in &declaration.variables {
-                self.scopes.declare(Name::clone(&variable.name), Symbol::Unsupported("this kind of texture or image"));
+                self.scopes.declare(
+                    Name::clone(&variable.name),
+                    Symbol::Unsupported([
+                        "this kind of texture or image is not supported",
+                        "この種類のテクスチャや画像には対応していません",
+                    ]),
+                );
             }
             return Ok(());
         }
@@ -49,7 +59,12 @@ impl Compiler {
                 let value = self.untraced(|compiler| compiler.initial_value(value, &kind))?;
                 for (slot, &from) in (slot..).zip(&value.slots) {
                     let known = self.builder.known(from);
-                    let known = known.ok_or_else(|| self.invalid("a uniform's value must be constant"))?;
+                    let known = known.ok_or_else(|| {
+                        self.invalid(both(
+                            "a uniform's value must be constant",
+                            "uniform 変数の初期値は定数式でなければなりません",
+                        ))
+                    })?;
                     self.defaults.push((slot, known));
                 }
             }
@@ -105,7 +120,7 @@ impl Compiler {
     /// The parts of a uniform that a host sets, each with its path.
     fn leaves(&mut self, path: &str, kind: &Type, slot: Slot) -> Result<(), Refusal> {
         if self.uniforms.len() > MAX_LEAVES {
-            return Err(self.limit("there are too many uniforms"));
+            return Err(self.limit(both("there are too many uniforms", "uniform 変数が多すぎます")));
         }
         match kind {
             Type::Struct(structure) => {
@@ -167,14 +182,18 @@ impl Compiler {
                 slot += kind.slots().unwrap_or(0) as Slot;
             }
         } else {
-            return Err(self.limit("arrays of input and output blocks"));
+            return Err(self.limit(both(
+                "arrays of input and output blocks are not supported",
+                "入出力ブロックの配列には対応していません",
+            )));
         }
         self.scopes.declare(Name::clone(instance), Symbol::variable(kind, slot));
         Ok(())
     }
 
     fn storage_buffer(&mut self, block: &InterfaceBlock) -> Result<(), Refusal> {
-        let unsupported = || Symbol::Unsupported("storage buffers");
+        let unsupported =
+            || Symbol::Unsupported(["storage buffers are not supported", "ストレージバッファには対応していません"]);
         if let Some((instance, _)) = &block.instance {
             self.scopes.declare(Name::clone(instance), unsupported());
             return Ok(());
@@ -188,7 +207,9 @@ impl Compiler {
     /// A built-in variable that the program declares again, perhaps with a length.
     fn redeclare(&mut self, name: &Name, kind: Type) -> Result<(), Refusal> {
         let known = builtin::variable(name, self.stage);
-        let (storage, known) = known.ok_or_else(|| self.limit(format!("there is no `{name}` here")))?;
+        let (storage, known) = known.ok_or_else(|| {
+            self.limit(both(format!("there is no `{name}` here"), format!("ここでは `{name}` を使えません")))
+        })?;
         let kind = if kind.slots().is_some() { kind } else { known };
         self.built_in(name, storage, kind)
     }
@@ -202,7 +223,12 @@ impl Compiler {
             return Ok(());
         }
         let known = builtin::variable(name, self.stage);
-        let (storage, kind) = known.ok_or_else(|| self.limit(format!("there is no variable `{name}` here")))?;
+        let (storage, kind) = known.ok_or_else(|| {
+            self.limit(both(
+                format!("there is no variable `{name}` here"),
+                format!("ここでは変数 `{name}` を使えません"),
+            ))
+        })?;
         self.built_in(name, storage, kind)
     }
 

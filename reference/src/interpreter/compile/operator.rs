@@ -5,6 +5,7 @@ use crate::interpreter::Refusal;
 use crate::interpreter::code::{ArithmeticClass, Operation, Slot};
 use crate::interpreter::syntax::Binary;
 use crate::interpreter::types::{Scalar, Type};
+use crate::text::both;
 
 impl Compiler {
     /// The type that both operands become.
@@ -18,7 +19,8 @@ impl Compiler {
         };
         match (a, b) {
             _ if a == b => Ok(a),
-            (Scalar::Bool, _) | (_, Scalar::Bool) => Err(self.invalid("a truth value and a number do not go together")),
+            (Scalar::Bool, _) | (_, Scalar::Bool) => Err(self
+                .invalid(both("a truth value and a number do not go together", "真偽値と数値を一緒に計算できません"))),
             _ => Ok(if order(a) > order(b) { a } else { b }),
         }
     }
@@ -45,7 +47,10 @@ impl Compiler {
             Binary::ShiftLeft | Binary::ShiftRight => {
                 let left = operator == Binary::ShiftLeft;
                 let operation = if left { Operation::ShiftLeft } else { Operation::ShiftRight };
-                let scalar = a.kind.scalar().ok_or_else(|| self.invalid("only integers are shifted"))?;
+                let scalar = a
+                    .kind
+                    .scalar()
+                    .ok_or_else(|| self.invalid(both("only integers are shifted", "シフトできるのは整数だけです")))?;
                 let slots = self.builder.each2(operation, class(scalar), &a.slots, &b.slots);
                 Ok(CompiledValue { kind: a.kind, slots })
             }
@@ -65,7 +70,9 @@ impl Compiler {
                     _ => Operation::Xor,
                 };
                 if a.kind != Type::BOOL || b.kind != Type::BOOL {
-                    return Err(self.invalid("this operator is for truth values"));
+                    return Err(
+                        self.invalid(both("this operator is for truth values", "この演算子は真偽値に使うものです"))
+                    );
                 }
                 Ok(CompiledValue {
                     kind: Type::BOOL,
@@ -82,7 +89,10 @@ impl Compiler {
         mut b: CompiledValue,
     ) -> Result<(CompiledValue, CompiledValue, Scalar), Refusal> {
         let (Some(of_a), Some(of_b)) = (a.kind.scalar(), b.kind.scalar()) else {
-            return Err(self.invalid(format!("{} and {} have no such operator", a.kind, b.kind)));
+            return Err(self.invalid(both(
+                format!("{} and {} have no such operator", a.kind, b.kind),
+                format!("{} と {} にこの演算子は使えません", a.kind, b.kind),
+            )));
         };
         let scalar = self.common_scalar(of_a, of_b)?;
         a = CompiledValue { kind: a.kind.with_scalar(scalar), slots: self.converted(&a.slots, of_a, scalar) };
@@ -93,14 +103,14 @@ impl Compiler {
     fn arithmetic(&mut self, operator: Binary, a: CompiledValue, b: CompiledValue) -> Result<CompiledValue, Refusal> {
         let (a, b, scalar) = self.same_scalar(a, b)?;
         if scalar == Scalar::Bool {
-            return Err(self.invalid("truth values have no arithmetic"));
+            return Err(self.invalid(both("truth values have no arithmetic", "真偽値に算術演算はできません")));
         }
         let operation = match operator {
             Binary::Add => Operation::Add,
             Binary::Subtract => Operation::Subtract,
             Binary::Divide => Operation::Divide,
             Binary::Remainder if scalar.is_integer() => Operation::Remainder,
-            Binary::Remainder => return Err(self.invalid("% is for integers")),
+            Binary::Remainder => return Err(self.invalid(both("% is for integers", "`%` は整数に使うものです"))),
             _ => {
                 let is_matrix = |value: &CompiledValue| matches!(value.kind, Type::Matrix(..));
                 if (is_matrix(&a) && !b.kind.is_scalar()) || (is_matrix(&b) && !a.kind.is_scalar()) {
@@ -121,7 +131,10 @@ impl Compiler {
         b: CompiledValue,
     ) -> Result<CompiledValue, Refusal> {
         if a.kind != b.kind && !a.kind.is_scalar() && !b.kind.is_scalar() {
-            return Err(self.invalid(format!("{} and {} do not go together", a.kind, b.kind)));
+            return Err(self.invalid(both(
+                format!("{} and {} do not go together", a.kind, b.kind),
+                format!("{} と {} は一緒に計算できません", a.kind, b.kind),
+            )));
         }
         let slots = self.builder.each2(operation, class(scalar), &a.slots, &b.slots);
         Ok(CompiledValue { kind: if a.kind.is_scalar() { b.kind } else { a.kind }, slots })
@@ -141,9 +154,13 @@ impl Compiler {
             _ => None,
         };
         let shapes = shape(&a.kind, true).zip(shape(&b.kind, false));
-        let ((scalar, inner, rows), (_, columns, _)) = shapes
-            .filter(|((_, inner, _), (_, _, rows))| inner == rows)
-            .ok_or_else(|| self.invalid(format!("{} and {} cannot be multiplied", a.kind, b.kind)))?;
+        let ((scalar, inner, rows), (_, columns, _)) =
+            shapes.filter(|((_, inner, _), (_, _, rows))| inner == rows).ok_or_else(|| {
+                self.invalid(both(
+                    format!("{} and {} cannot be multiplied", a.kind, b.kind),
+                    format!("{} と {} は掛けられません", a.kind, b.kind),
+                ))
+            })?;
         let mut slots = Vec::with_capacity(rows * columns);
         for column in 0..columns {
             for row in 0..rows {
@@ -169,7 +186,10 @@ impl Compiler {
             _ => (a, b),
         };
         if a.kind != b.kind {
-            return Err(self.invalid(format!("{} and {} cannot be compared", a.kind, b.kind)));
+            return Err(self.invalid(both(
+                format!("{} and {} cannot be compared", a.kind, b.kind),
+                format!("{} と {} は比較できません", a.kind, b.kind),
+            )));
         }
         let (operation, joined) =
             if equal { (Operation::Equal, Operation::And) } else { (Operation::NotEqual, Operation::Or) };

@@ -6,6 +6,7 @@ use crate::interpreter::Refusal;
 use crate::interpreter::code::{Indexed, Node, Slot};
 use crate::interpreter::syntax::{Expression, ExpressionKind, Name};
 use crate::interpreter::types::Type;
+use crate::text::both;
 
 /// A variable, or a part of one.
 #[derive(Clone, Debug)]
@@ -53,9 +54,13 @@ impl Compiler {
             Some(Symbol::Variable { kind, slot }) => {
                 Ok(LValue { kind: kind.clone(), base: *slot, offset: None, components: None })
             }
-            Some(Symbol::Unsupported(what)) => Err(self.limit(*what)),
-            Some(Symbol::Structure(_)) => Err(self.invalid(format!("`{name}` is a type"))),
-            None => Err(self.invalid(format!("there is no variable `{name}`"))),
+            Some(Symbol::Unsupported([en, ja])) => Err(self.limit(both(*en, *ja))),
+            Some(Symbol::Structure(_)) => {
+                Err(self.invalid(both(format!("`{name}` is a type"), format!("`{name}` は型の名前です"))))
+            }
+            None => {
+                Err(self.invalid(both(format!("there is no variable `{name}`"), format!("変数 `{name}` がありません"))))
+            }
         }
     }
 
@@ -68,10 +73,17 @@ impl Compiler {
 
     pub(super) fn element(&mut self, place: LValue, index: &CompiledValue) -> Result<LValue, Refusal> {
         let element = place.kind.element();
-        let (kind, count) = element.ok_or_else(|| self.invalid(format!("{} has no elements", place.kind)))?;
+        let (kind, count) = element.ok_or_else(|| {
+            self.invalid(both(format!("{} has no elements", place.kind), format!("{} に要素はありません", place.kind)))
+        })?;
         let count = count.unwrap_or(UNSIZED);
-        let stride = kind.slots().ok_or_else(|| self.invalid("the length of this array is not known"))?;
-        let index = *index.slots.first().ok_or_else(|| self.invalid("an index is a whole number"))?;
+        let stride = kind.slots().ok_or_else(|| {
+            self.invalid(both("the length of this array is not known", "この配列の長さが分かりません"))
+        })?;
+        let index = *index
+            .slots
+            .first()
+            .ok_or_else(|| self.invalid(both("an index is a whole number", "添字は整数でなければなりません")))?;
         if let Some(known) = self.builder.known(index).filter(|&known| known >= 0.0 && known < count as f64) {
             let base = place.base + known as Slot * stride as Slot;
             return Ok(LValue { kind, base, ..place });
@@ -92,11 +104,19 @@ impl Compiler {
                     }
                     base += kind.slots().unwrap_or(0) as Slot;
                 }
-                Err(self.invalid(format!("{} has no member `{name}`", structure.name)))
+                Err(self.invalid(both(
+                    format!("{} has no member `{name}`", structure.name),
+                    format!("{} にメンバ `{name}` はありません", structure.name),
+                )))
             }
             Type::Vector(scalar, count) => {
                 let chosen = components(name, *count);
-                let chosen = chosen.ok_or_else(|| self.invalid(format!("{} has no component `{name}`", place.kind)))?;
+                let chosen = chosen.ok_or_else(|| {
+                    self.invalid(both(
+                        format!("{} has no component `{name}`", place.kind),
+                        format!("{} に成分 `{name}` はありません", place.kind),
+                    ))
+                })?;
                 let kind = Type::Vector(*scalar, chosen.len() as u8);
                 let chosen = match &place.components {
                     Some(before) => chosen.into_iter().map(|index| before[index as usize]).collect(),
@@ -104,7 +124,10 @@ impl Compiler {
                 };
                 Ok(LValue { kind, components: Some(chosen), ..place })
             }
-            other => Err(self.invalid(format!("{other} has no member `{name}`"))),
+            other => Err(self.invalid(both(
+                format!("{other} has no member `{name}`"),
+                format!("{other} にメンバ `{name}` はありません"),
+            ))),
         }
     }
 
@@ -113,7 +136,9 @@ impl Compiler {
         match &place.components {
             Some(components) => Ok(components.iter().map(|component| place.base + component).collect()),
             None => {
-                let size = place.kind.slots().ok_or_else(|| self.invalid("the length of this array is not known"))?;
+                let size = place.kind.slots().ok_or_else(|| {
+                    self.invalid(both("the length of this array is not known", "この配列の長さが分かりません"))
+                })?;
                 Ok((place.base..).take(size).collect())
             }
         }
@@ -136,7 +161,7 @@ impl Compiler {
     pub(super) fn write(&mut self, place: &LValue, value: &CompiledValue) -> Result<(), Refusal> {
         let slots = self.slots_of(place)?;
         if slots.iter().any(|&slot| self.builder.known(slot).is_some()) {
-            return Err(self.invalid("a constant is written"));
+            return Err(self.invalid(both("a constant is written", "定数に値を書き込んでいます")));
         }
         // What is read must not be overwritten before: `v.xy = v.yx`.
         let overlaps = |(index, slot): (usize, &Slot)| slots[..index.min(slots.len())].contains(slot);

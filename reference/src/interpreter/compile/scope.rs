@@ -16,7 +16,7 @@ pub enum Symbol {
     /// A structure.
     Structure(Type),
     /// Something that may be declared and is not supported where it is used.
-    Unsupported(&'static str),
+    Unsupported([&'static str; 2]),
 }
 
 impl Symbol {

@@ -12,6 +12,7 @@ use crate::interpreter::syntax::{
 use crate::interpreter::texture::Texture;
 use crate::interpreter::types::Type;
 use crate::interpreter::{Refusal, Stage, builtin, parse, text};
+use crate::text::{Text, both};
 use std::collections::HashSet;
 use std::sync::Arc;
 
@@ -64,8 +65,13 @@ fn path(name: &str) -> Option<Expression> {
 /// As many as usual formulas need.
 const TEMPORARIES: Slot = 128;
 
-const ONLY_DEFINITIONS: &str =
-    "`main` has only definitions `type name = expression;`, and then `output = name;`: put this into a function";
+fn only_definitions(line: u32) -> Refusal {
+    let what = both(
+        "`main` has only definitions `type name = expression;`, and then `output = name;`: put this into a function",
+        "`main` に書けるのは、定義 `型 名前 = 式;` と、その後の `出力 = 名前;` だけです。これは関数にしてください",
+    );
+    Refusal::invalid(line, what)
+}
 
 impl Draft {
     /// Reads a program. The constants in `open` keep their slots, so that they can be given other values.
@@ -77,7 +83,8 @@ impl Draft {
         if let Some(hindrance) = draft.hindrance.take() {
             return Err(hindrance);
         }
-        let main = main.ok_or_else(|| Refusal::invalid(0, "there is no function main"))?;
+        let main =
+            main.ok_or_else(|| Refusal::invalid(0, both("there is no function main", "関数 `main` がありません")))?;
         draft.main(&main)?;
         Ok(draft)
     }
@@ -157,8 +164,12 @@ impl Draft {
                 }
                 Some(_) => {}
                 None => {
-                    let what =
-                        format!("`{name}` is not known before `main`: write `const` before it, or move it there");
+                    let what = both(
+                        format!("`{name}` is not known before `main`: write `const` before it, or move it there"),
+                        format!(
+                            "`main` の前では `{name}` の値が決まりません。`const` を付けるか、`main` の中に移してください"
+                        ),
+                    );
                     self.hindrance.get_or_insert(Refusal::limit(variable.line, what));
                 }
             }
@@ -198,18 +209,24 @@ impl Draft {
             StatementKind::Expression(Expression { kind: ExpressionKind::Assign(None, to, from), .. }) => {
                 self.output(to, from, statement.line)
             }
-            _ => Err(Refusal::invalid(statement.line, ONLY_DEFINITIONS)),
+            _ => Err(only_definitions(statement.line)),
         }
     }
 
     fn define(&mut self, declaration: &Declaration, variable: &DeclaredVariable) -> Result<(), Refusal> {
         let name = &variable.name;
-        let refused = |what: String| Err(Refusal::invalid(variable.line, what));
+        let refused = |what: Text| Err(Refusal::invalid(variable.line, what));
         let Some(value) = &variable.value else {
-            return refused(format!("`{name}` has no value: write `{name} = …` where it is declared"));
+            return refused(both(
+                format!("`{name}` has no value: write `{name} = …` where it is declared"),
+                format!("`{name}` に値がありません。宣言するところで `{name} = …` と書いてください"),
+            ));
         };
         if self.compiler.scopes.get(name).is_some() {
-            return refused(format!("`{name}` is the name of something else already: choose another"));
+            return refused(both(
+                format!("`{name}` is the name of something else already: choose another"),
+                format!("名前 `{name}` はすでに使われています。別の名前にしてください"),
+            ));
         }
         let base = self.compiler.type_of(&declaration.kind)?;
         let kind = self.compiler.arrays_of(base, &variable.lengths)?;
@@ -224,14 +241,23 @@ impl Draft {
 
     /// `output = name;`, or `output = expression;`: a definition that has the output's name.
     fn output(&mut self, to: &Expression, from: &Expression, line: u32) -> Result<(), Refusal> {
-        let ExpressionKind::Name(output) = &to.kind else { return Err(Refusal::invalid(line, ONLY_DEFINITIONS)) };
+        let ExpressionKind::Name(output) = &to.kind else { return Err(only_definitions(line)) };
         if self.defined(output).is_some() {
-            let what = format!("`{output}` has a value already: give the new one a name of its own");
+            let what = both(
+                format!("`{output}` has a value already: give the new one a name of its own"),
+                format!("`{output}` にはすでに値があります。新しい値には別の名前を付けてください"),
+            );
             return Err(Refusal::invalid(line, what));
         }
         self.compiler.place(to)?;
         let Some(known) = self.compiler.outputs.iter().find(|known| known.name == **output) else {
-            return Err(Refusal::invalid(line, format!("`{output}` is no output of this stage")));
+            return Err(Refusal::invalid(
+                line,
+                both(
+                    format!("`{output}` is no output of this stage"),
+                    format!("`{output}` はこのステージの出力ではありません"),
+                ),
+            ));
         };
         let cell = match &from.kind {
             ExpressionKind::Name(name) => self.defined(name),
@@ -384,7 +410,10 @@ impl Draft {
 
     fn formula(&self, cell: usize, nodes: Vec<Node>, line: u32) -> Result<Formula, Refusal> {
         if let Some(input) = self.compiler.inputs.get(self.declared) {
-            let what = format!("a definition does not know `{}`: use only what is declared", input.name);
+            let what = both(
+                format!("a definition does not know `{}`: use only what is declared", input.name),
+                format!("定義の中で `{}` は使えません。宣言されているものだけを使ってください", input.name),
+            );
             return Err(Refusal::limit(line, what));
         }
         let bodies = self.compiler.functions.iter().map(|declared| declared.body.as_deref().unwrap_or_default());

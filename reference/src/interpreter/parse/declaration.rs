@@ -1,12 +1,13 @@
 //! Declarations: functions, variables, structures, blocks.
 
-use super::Parser;
+use super::{Parser, token};
 use crate::interpreter::Refusal;
 use crate::interpreter::code::Interpolation;
 use crate::interpreter::syntax::{
     BaseType, Declaration, DeclaredVariable, Function, InterfaceBlock, Item, Name, Parameter, Qualifiers,
     StorageQualifier, TypeName,
 };
+use crate::text::both;
 
 /// Words before a type that do not change what it means here.
 const SILENT: [&str; 7] = ["smooth", "centroid", "invariant", "highp", "mediump", "lowp", "precision"];
@@ -42,7 +43,7 @@ impl Parser<'_> {
     fn requalification(&mut self) -> Result<Item, Refusal> {
         while !self.takes(";") {
             if self.peek(0).is_none() {
-                return Err(self.unexpected("`;`"));
+                return Err(self.unexpected(token(";")));
             }
             self.at += 1;
         }
@@ -102,7 +103,7 @@ impl Parser<'_> {
                 "location" if self.text(1) == "=" => location = self.text(2).parse().ok(),
                 "(" => depth += 1,
                 ")" => depth -= 1,
-                "" => return Err(self.unexpected("`)`")),
+                "" => return Err(self.unexpected(token(")"))),
                 _ => {}
             }
             self.at += 1;
@@ -160,7 +161,7 @@ impl Parser<'_> {
                 return Ok(variables);
             }
             if !self.takes(",") {
-                return Err(self.unexpected("`,` or `;`"));
+                return Err(self.unexpected(both("`,` or `;`", " `,` または `;` ")));
             }
         }
     }

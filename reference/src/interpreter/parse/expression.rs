@@ -6,6 +6,7 @@ use crate::interpreter::Refusal;
 use crate::interpreter::syntax::{BaseType, Binary, Expression, ExpressionKind, TypeName, Unary};
 use crate::interpreter::text::TokenKind;
 use crate::interpreter::types::Type;
+use crate::text::both;
 
 /// Built-in functions that write into an argument.
 const WRITING: [&str; 6] = ["modf", "frexp", "uaddCarry", "usubBorrow", "umulExtended", "imulExtended"];
@@ -36,7 +37,7 @@ impl Parser<'_> {
         while !self.takes("}") {
             all.push(self.nested(Self::initialiser)?);
             if !self.takes(",") && self.text(0) != "}" {
-                return Err(self.unexpected("`,` or `}`"));
+                return Err(self.unexpected(both("`,` or `}`", " `,` または `}` ")));
             }
         }
         Ok(Expression { line, changes: all.iter().any(|one| one.changes), kind: ExpressionKind::List(all) })
@@ -160,7 +161,7 @@ impl Parser<'_> {
             };
             value = Expression { line, changes, kind };
         }
-        Err(Refusal::limit(self.line(), "this is nested too deeply"))
+        Err(Refusal::limit(self.line(), both("this is nested too deeply", "入れ子が深すぎます")))
     }
 
     fn primary(&mut self) -> Result<Expression, Refusal> {
@@ -172,7 +173,12 @@ impl Parser<'_> {
         match self.peek(0) {
             Some(token) if token.kind == TokenKind::Number => {
                 let literal = literal(&token.text);
-                let literal = literal.ok_or_else(|| Refusal::invalid(line, format!("{} is no number", token.text)))?;
+                let literal = literal.ok_or_else(|| {
+                    Refusal::invalid(
+                        line,
+                        both(format!("{} is no number", token.text), format!("`{}` は数値ではありません", token.text)),
+                    )
+                })?;
                 self.at += 1;
                 Ok(plain(literal))
             }
@@ -184,7 +190,7 @@ impl Parser<'_> {
                 }
                 _ => self.name_or_call(),
             },
-            _ => Err(self.unexpected("an expression")),
+            _ => Err(self.unexpected(both("an expression", "式"))),
         }
     }
 

@@ -1,6 +1,6 @@
 //! Statements.
 
-use super::Parser;
+use super::{Parser, token};
 use crate::interpreter::Refusal;
 use crate::interpreter::syntax::{Declaration, LoopCondition, Statement, StatementKind};
 
@@ -137,7 +137,7 @@ impl Parser<'_> {
         while !self.takes(";") {
             self.at += 1;
             if self.peek(0).is_none() {
-                return Err(self.unexpected("`;`"));
+                return Err(self.unexpected(token(";")));
             }
         }
         Ok(StatementKind::Empty)

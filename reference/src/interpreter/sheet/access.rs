@@ -1,6 +1,7 @@
 //! What a formula reads and writes.
 
 use crate::interpreter::code::{Node, Slot};
+use crate::text::{Text, both};
 use std::collections::HashSet;
 
 /// The slots that nodes read and write.
@@ -15,18 +16,18 @@ pub(super) struct Access {
 ///
 /// # Errors
 /// Something that a single sample cannot do: what, and on which line.
-pub(super) fn of(nodes: &[Node], functions: &[&[Node]]) -> Result<Access, (String, u32)> {
+pub(super) fn of(nodes: &[Node], functions: &[&[Node]]) -> Result<Access, (Text, u32)> {
     let mut access = Access::default();
     access.add(nodes, functions)?;
     Ok(access)
 }
 
 impl Access {
-    fn add(&mut self, nodes: &[Node], functions: &[&[Node]]) -> Result<(), (String, u32)> {
+    fn add(&mut self, nodes: &[Node], functions: &[&[Node]]) -> Result<(), (Text, u32)> {
         nodes.iter().try_for_each(|node| self.add_one(node, functions))
     }
 
-    fn add_one(&mut self, node: &Node, functions: &[&[Node]]) -> Result<(), (String, u32)> {
+    fn add_one(&mut self, node: &Node, functions: &[&[Node]]) -> Result<(), (Text, u32)> {
         match node {
             Node::Do(one) => self.read.extend(one.of),
             Node::Store { to, from } => {
@@ -60,8 +61,15 @@ impl Access {
             }
             Node::Break | Node::Continue | Node::Return => {}
             Node::Record(_) | Node::Wrote { .. } | Node::HandedOn { .. } => {}
-            Node::Discard => return Err(("a definition throws no sample away".into(), 0)),
-            Node::Derivative { line, .. } => return Err(("a definition has no derivatives".into(), *line)),
+            Node::Discard => {
+                return Err((both("a definition throws no sample away", "定義の中で `discard` は使えません"), 0));
+            }
+            Node::Derivative { line, .. } => {
+                return Err((
+                    both("a definition has no derivatives", "定義の中で微分 (`dFdx` など) は使えません"),
+                    *line,
+                ));
+            }
             Node::Texture(query) => {
                 self.read.extend(query.operands());
                 self.written.extend(&query.to);

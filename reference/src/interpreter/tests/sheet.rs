@@ -164,11 +164,11 @@ fn what_is_no_list_of_definitions_is_refused_with_its_line() {
         ("float a = texture(s, vec2(0.0)).x;", "there is no variable `s`"),
     ] {
         let refusal = main(body);
-        assert!(refusal.line == 4 && refusal.what().contains(what), "{body}: {refusal}");
+        assert!(refusal.line == 4 && refusal.what().en.contains(what), "{body}: {refusal}");
     }
     assert_eq!(refusal("float a() { return 1.0; }").line, 0);
     let circle = "float a(); float b() { return a(); } float a() { return b(); } void main() { float c = a(); }";
-    assert!(refusal(circle).what().contains("calls itself"));
+    assert!(refusal(circle).what().en.contains("calls itself"));
 }
 
 #[test]

@@ -2,6 +2,7 @@
 
 use super::{Token, TokenKind};
 use crate::interpreter::Refusal;
+use crate::text::both;
 
 /// Deepest nesting of brackets and signs.
 const MAX_DEPTH: usize = 300;
@@ -40,7 +41,10 @@ struct ConditionReader<'a> {
 
 impl ConditionReader<'_> {
     fn wrong(&self) -> Refusal {
-        Refusal::invalid(self.line, "this condition of the preprocessor cannot be read")
+        Refusal::invalid(
+            self.line,
+            both("this condition of the preprocessor cannot be read", "プリプロセッサの条件を読み取れません"),
+        )
     }
 
     fn next(&mut self) -> Option<Token> {
@@ -91,7 +95,13 @@ impl ConditionReader<'_> {
     fn unary(&mut self) -> Result<i64, Refusal> {
         self.depth += 1;
         if self.depth > MAX_DEPTH {
-            return Err(Refusal::limit(self.line, "a condition of the preprocessor nested too deeply"));
+            return Err(Refusal::limit(
+                self.line,
+                both(
+                    "a condition of the preprocessor is nested too deeply",
+                    "プリプロセッサの条件の入れ子が深すぎます",
+                ),
+            ));
         }
         let token = self.next().ok_or_else(|| self.wrong())?;
         let value = match (token.kind, &*token.text) {

@@ -2,6 +2,7 @@
 
 use super::{Hidden, Token, TokenKind, lexer};
 use crate::interpreter::Refusal;
+use crate::text::both;
 use std::collections::HashMap;
 use std::rc::Rc;
 
@@ -41,7 +42,7 @@ impl Macros {
     pub fn define(&mut self, tokens: &[Token], line: u32) -> Result<(), Refusal> {
         let (name, rest) = match tokens {
             [name, rest @ ..] if name.kind == TokenKind::Name => (name, rest),
-            _ => return Err(Refusal::invalid(line, "#define without a name")),
+            _ => return Err(Refusal::invalid(line, both("#define without a name", "`#define` に名前がありません"))),
         };
         let (parameters, body) = parameters(rest)?;
         self.defined.insert(Rc::clone(&name.text), Rc::new(Macro { parameters, body: body.to_vec() }));
@@ -72,7 +73,7 @@ impl Macros {
     fn expand_in(&mut self, mut input: Vec<Token>, depth: usize) -> Result<Vec<Token>, Refusal> {
         let line = input.first().map_or(0, |token| token.line);
         if depth > MAX_DEPTH {
-            return Err(Refusal::limit(line, "macros nested too deeply"));
+            return Err(Refusal::limit(line, both("macros are nested too deeply", "マクロの入れ子が深すぎます")));
         }
         input.reverse();
         let mut output = Vec::with_capacity(input.len());
@@ -102,7 +103,10 @@ impl Macros {
             let written = self.replace(&replacement, &arguments, &token, depth)?;
             self.written += written.len();
             if self.written > MAX_TOKENS {
-                return Err(Refusal::limit(token.line, "macros that expand to more than a million tokens"));
+                return Err(Refusal::limit(
+                    token.line,
+                    both("macros expand to more than a million tokens", "マクロの展開が 100 万トークンを超えます"),
+                ));
             }
             input.extend(written.into_iter().rev());
         }
@@ -151,7 +155,10 @@ impl Macros {
             }
             output.append(&mut part);
             if self.written + output.len() > MAX_TOKENS {
-                return Err(Refusal::limit(used.line, "macros that expand to more than a million tokens"));
+                return Err(Refusal::limit(
+                    used.line,
+                    both("macros expand to more than a million tokens", "マクロの展開が 100 万トークンを超えます"),
+                ));
             }
         }
         Ok(output)
@@ -172,7 +179,7 @@ fn paste(left: &mut Vec<Token>, right: &mut [Token], used: &Token) -> Result<(),
             right[0] = Token { line: used.line, written: before.written, hidden: before.hidden, ..token };
             Ok(())
         }
-        Err(_) => Err(Refusal::invalid(used.line, "## makes no token")),
+        Err(_) => Err(Refusal::invalid(used.line, both("## makes no token", "`##` の結果がトークンになりません"))),
     }
 }
 
@@ -193,7 +200,10 @@ fn parameters(rest: &[Token]) -> Result<(Option<Vec<Rc<str>>>, &[Token]), Refusa
             break;
         }
     }
-    Err(Refusal::invalid(open.line, "a macro's parameters are names in brackets"))
+    Err(Refusal::invalid(
+        open.line,
+        both("a macro's parameters are names in brackets", "マクロの引数は括弧の中の名前でなければなりません"),
+    ))
 }
 
 /// Takes `(…)` off the input; none where the macro stands without brackets, or they do not end.

@@ -3,6 +3,7 @@
 use super::macros::Macros;
 use super::{Token, TokenKind, condition, lexer};
 use crate::interpreter::Refusal;
+use crate::text::both;
 use std::rc::Rc;
 
 /// The version of a file without `#version`.
@@ -49,7 +50,10 @@ pub fn preprocess(text: &str) -> Result<Preprocessed, Refusal> {
     }
     preprocessor.flush()?;
     if let Some(condition) = preprocessor.conditions.last() {
-        return Err(Refusal::invalid(condition.line, "this condition is not closed with #endif"));
+        return Err(Refusal::invalid(
+            condition.line,
+            both("this condition is not closed with #endif", "この条件が `#endif` で閉じられていません"),
+        ));
     }
     Ok(Preprocessed { tokens: preprocessor.output, version: preprocessor.macros.version })
 }
@@ -109,13 +113,15 @@ impl Preprocessor {
             }
             "version" => {
                 let number = rest.first().and_then(|number| number.text.parse().ok());
-                self.macros.version = number.ok_or_else(|| Refusal::invalid(line, "#version without a number"))?;
+                self.macros.version = number.ok_or_else(|| {
+                    Refusal::invalid(line, both("#version without a number", "`#version` に番号がありません"))
+                })?;
                 if rest.get(1).is_some_and(|profile| &*profile.text == "compatibility") {
                     self.macros.define_number("GL_compatibility_profile", 1);
                 }
                 Ok(())
             }
-            "error" => Err(Refusal::invalid(line, "#error")),
+            "error" => Err(Refusal::invalid(line, both("#error", "`#error` があります"))),
             _ => Ok(()),
         }
     }
@@ -133,12 +139,16 @@ impl Preprocessor {
                 let taken = self.conditions.last().is_none_or(|condition| condition.taken);
                 let active = is_read && !taken && (name == "else" || self.condition("if", rest, line)?);
                 let condition = self.conditions.last_mut();
-                let condition = condition.ok_or_else(|| Refusal::invalid(line, "this directive has no #if"))?;
+                let condition = condition.ok_or_else(|| {
+                    Refusal::invalid(line, both("this directive has no #if", "この指示に対応する `#if` がありません"))
+                })?;
                 condition.active = active;
                 condition.taken |= active;
             }
             "endif" => {
-                self.conditions.pop().ok_or_else(|| Refusal::invalid(line, "#endif without #if"))?;
+                self.conditions.pop().ok_or_else(|| {
+                    Refusal::invalid(line, both("#endif without #if", "`#endif` に対応する `#if` がありません"))
+                })?;
             }
             _ => {}
         }

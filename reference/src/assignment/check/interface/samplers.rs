@@ -6,10 +6,11 @@ use super::super::stages::Compiled;
 use super::super::textures::place;
 use super::values::part;
 use crate::Text;
-use crate::assignment::{MANIFEST, Uniform, both, error};
+use crate::assignment::{MANIFEST, Uniform, error};
 use crate::feed::Feed;
 use crate::interpreter::{Sampler, Texels, Texture, Type};
 use crate::manifest;
+use crate::text::both;
 
 /// The textures of a folder, for samplers.
 #[derive(Clone, Copy)]

@@ -1,8 +1,8 @@
 //! Values of `assignment.toml`: numbers, lists and tables as values of GLSL.
 
-use crate::assignment::both;
 use crate::feed::Bounds;
 use crate::interpreter::{Scalar, Type};
+use crate::text::both;
 use crate::value::rounded;
 use crate::{Text, Value};
 use toml::Value as Toml;
