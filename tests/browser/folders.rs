@@ -52,6 +52,7 @@ async fn a_homework_is_uploaded_published_and_replaced() {
     assert_eq!(browser.text("h1").await, "Waves");
     for (width, height) in [(1920, 1080), (390, 844), (1280, 900)] {
         browser.size(width, height).await;
+        browser.until("document.querySelector('.goal .window').getBoundingClientRect().height > 200").await;
         browser.check(&format!("folder-{width}")).await;
     }
     browser.click("button[value=publish]").await;

@@ -101,7 +101,6 @@ pub(super) fn of_course() -> Router<Service> {
         .route("/teacher/platforms", get(platforms::page).post(platforms::change))
         .route("/teacher/folders", get(folders::list).post(folders::upload).layer(DefaultBodyLimit::disable()))
         .route("/teacher/folders/{id}", get(folders::one).post(folders::change))
-        .route("/teacher/folders/{id}/goal.png", get(folders::goal))
         .route("/teacher/folders/{id}/page", get(folders::student_page).post(folders::not_handed_in))
         .route("/teacher/folders/{id}/page/starter", get(folders::starter))
         .route("/teacher/folders/{id}/page/read", post(folders::read))

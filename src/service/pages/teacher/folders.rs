@@ -3,7 +3,7 @@
 use super::super::datetime::TimeElement;
 use super::super::frame::PageFrame;
 use super::super::student::DIGITS;
-use super::super::{hand_in, shown, student};
+use super::super::{assets, hand_in, shown, student};
 use super::{Tab, refused};
 use crate::report::Report;
 use crate::report::html::rich::{MessagePiece, pieces};
@@ -65,7 +65,9 @@ struct FolderPage {
     title: String,
     files: String,
     task: Vec<MessagePiece>,
-    goal: String,
+    /// The pictures of a right answer, and how they move.
+    expected: String,
+    motion: String,
     /// The page that students will have.
     page: String,
     solution: FileResult,
@@ -181,7 +183,7 @@ async fn view_one(
     folder: &UploadedFolder,
     problem: Option<String>,
 ) -> Result<Response, Problem> {
-    let assignment = folders::read(service, &folder.id).await?;
+    let assignment = folders::previewed(service, folder).await?.assignment;
     let served = service.homework(&folder.assignment);
     let mut regrading = None;
     if let Some(state) = &served {
@@ -209,7 +211,8 @@ async fn view_one(
             title: student::title(&assignment, frame.language),
             files: student::file_names(&assignment),
             task: student::task(&assignment, &frame),
-            goal: at(&format!("/teacher/folders/{}/goal.png", folder.id)),
+            expected: assets::expected(&assignment),
+            motion: assets::motion(&assignment),
             page: at(&format!("/teacher/folders/{}/page", folder.id)),
             solution: earned(&folder.solution),
             handed_out: earned(&folder.handed_out),
@@ -273,15 +276,6 @@ pub(in crate::service::pages) async fn read(
     form: Multipart,
 ) -> Result<Response, Problem> {
     hand_in::read(Shared(looked_at(&service, &teacher, &id).await?), visitor, form).await
-}
-
-/// `GET /teacher/folders/{id}/goal.png`: what a right answer draws, small and moving.
-pub(in crate::service::pages) async fn goal(
-    Shared(service): Shared<Service>,
-    LecturerPage(teacher): LecturerPage,
-    Path(id): Path<String>,
-) -> Result<Response, Problem> {
-    hand_in::goal(Shared(looked_at(&service, &teacher, &id).await?)).await
 }
 
 /// `POST /teacher/folders/{id}/page`: what a student does there is not done at a page that is looked at.

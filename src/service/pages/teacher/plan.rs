@@ -30,6 +30,8 @@ struct PlanPage {
     lines: Vec<HomeworkLine>,
     /// Id and title of what the course can have as well.
     others: Vec<(String, String)>,
+    /// Whether it is the first course, which has what the service was started with.
+    is_first: bool,
 }
 
 /// A homework of the course.
@@ -99,7 +101,18 @@ async fn view(
     let offered = if service.is_beside() { service.offered() } else { &[] };
     let others = offered.iter().filter(|one| lines.iter().all(|line| line.id != one.id));
     let others = others.map(|one| (one.id.clone(), frame.language.of(&one.title).to_owned())).collect();
-    shown(PlanPage { place: Tab::Plan, csrf: teacher.csrf(service), problem, lines, others, frame }.render())
+    shown(
+        PlanPage {
+            place: Tab::Plan,
+            csrf: teacher.csrf(service),
+            problem,
+            lines,
+            others,
+            is_first: !service.is_beside(),
+            frame,
+        }
+        .render(),
+    )
 }
 
 /// `GET /teacher/plan`.
