@@ -137,6 +137,11 @@ pub fn encoding(bytes: &[u8]) -> Option<Encoding> {
     decode(bytes).ok().map(|decoded| decoded.encoding)
 }
 
+/// Bytes as text, in the encoding that fits them best, without a byte-order mark.
+pub fn decoded_text(bytes: &[u8]) -> String {
+    encoding::decode(bytes).text
+}
+
 /// Why `bytes`, which are to be what a slot asks for, cannot be read as text, where they cannot: too many, a binary
 /// format, no sense in any encoding.
 pub fn not_text(slot: &HandedIn, bytes: &[u8]) -> Option<Diagnostic> {

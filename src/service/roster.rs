@@ -11,11 +11,24 @@ pub use read::read;
 use super::Service;
 use super::errors::Problem;
 use super::store::{BatchEntry, EntryMatch, RosterLine};
+use std::collections::HashSet;
+
+/// How many students another roster changes.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct RosterChange {
+    /// Not on the one before.
+    pub new: usize,
+    /// On the one before, and not on this one.
+    pub gone: usize,
+}
 
 /// Takes a roster in place of the last one, and matches every archive to it.
-pub async fn import(service: &Service, roster: &[RosterLine]) -> Result<(), Problem> {
+pub async fn import(service: &Service, roster: &[RosterLine]) -> Result<RosterChange, Problem> {
     let store = &service.store;
+    let before: HashSet<String> = store.roster().await?.into_iter().map(|student| student.number).collect();
     store.set_roster(roster, service.clock.now()).await?;
+    let stays = roster.iter().filter(|line| before.contains(&line.number)).count();
+    let change = RosterChange { new: roster.len() - stays, gone: before.len() - stays };
     let matcher = Matcher::new(&store.roster().await?);
     let mut changed = Vec::new();
     for batch in store.all_batches().await? {
@@ -29,7 +42,7 @@ pub async fn import(service: &Service, roster: &[RosterLine]) -> Result<(), Prob
         }));
     }
     store.set_matches(&changed).await?;
-    Ok(())
+    Ok(change)
 }
 
 /// What an entry says of whose it is.

@@ -66,8 +66,20 @@ async fn a_teacher_walks_through_the_class() {
     std::fs::write(&roster, format!("number,name\n{students}")).expect("a file");
     browser.keys("#roster-file", &roster.to_string_lossy()).await;
     browser.click("form[action='/teacher/roster'] button").await;
-    browser.until("document.querySelector('[role=status]')").await;
+    browser.until("document.querySelector('[role=status]')?.textContent.includes('6 on it, 6 of them new')").await;
     browser.check("teacher-settings").await;
+    // What Excel saves in Japan, of a lecture that is full; and what takes its place.
+    let line = |n: usize| format!("{n},2026{n:04},\"学生, {n}\",{}\r\n", n % 4 + 1);
+    let full = format!("科目名,ＣＧ\r\nNo.,学籍番号,氏名,学年\r\n{}", (1..=400).map(line).collect::<String>());
+    std::fs::write(&roster, encoding_rs::SHIFT_JIS.encode(&full).0).expect("a file");
+    browser.keys("#roster-file", &roster.to_string_lossy()).await;
+    browser.click("form[action='/teacher/roster'] button").await;
+    browser.until("document.querySelector('[role=status]')?.textContent.includes('20260001 学生, 1;')").await;
+    assert!(browser.text("[role=status]").await.contains("400 on it, 400 of them new; 6 of the roster before"));
+    std::fs::write(&roster, format!("\u{feff}number;name\n{}", students.replace(',', ";"))).expect("a file");
+    browser.keys("#roster-file", &roster.to_string_lossy()).await;
+    browser.click("form[action='/teacher/roster'] button").await;
+    browser.until("document.querySelector('[role=status]')?.textContent.includes('6 on it, 6 of them new')").await;
 
     browser.open(&server.at("/teacher")).await;
     browser.until("document.querySelectorAll('.people tbody tr').length === 6").await;

@@ -110,9 +110,12 @@ pub async fn archive(bench: &Bench, bytes: Vec<u8>) -> String {
     panic!("the archive was not graded");
 }
 
-async fn roster(bench: &Bench, csv: &str) {
+/// Imports a roster; what the page says of it then.
+async fn roster(bench: &Bench, csv: &str) -> String {
     let reply = file(bench, "/teacher/roster", "roster", "roster.csv", csv.as_bytes()).await;
-    assert_eq!((reply.status, reply.header("location")), (StatusCode::SEE_OTHER, "/teacher/settings?done=roster"));
+    let next = reply.header("location").to_owned();
+    assert!(reply.status == StatusCode::SEE_OTHER && next.starts_with("/teacher/settings?done=roster&"), "{reply:?}");
+    get(bench, &next).await.all("[role=status]").concat()
 }
 
 async fn hand_in(bench: &Bench, query: &str, bytes: Vec<u8>) -> Reply {
@@ -165,7 +168,9 @@ async fn the_class_is_the_roster(database: Database) {
     let rows: Vec<&str> = csv.lines().skip(1).map(|line| line.split(',').next().expect("a cell")).collect();
     assert_eq!(rows, ["S1", "S2", "S3", "S4", "S5"], "{csv}");
     // Another roster: who is on it now is the class, and nothing is lost.
-    roster(&bench, "S13,他人 太郎\n").await;
+    let said = roster(&bench, "S13,他人 太郎\n").await;
+    assert!(said.contains("1 on it, 1 of them new; 5 of the roster before are no longer on it"), "{said}");
+    assert!(said.ends_with("It begins with S13 他人 太郎."), "{said}");
     let page = get(&bench, "/teacher").await;
     assert_eq!(page.all(".people tbody th"), ["S13 他人 太郎"]);
     assert_eq!(page.all(".people .mistakes span"), ["Half vector not normalised"]);

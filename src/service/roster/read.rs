@@ -7,23 +7,32 @@ use std::collections::HashMap;
 use unicode_normalization::UnicodeNormalization;
 
 /// What columns are called, in the languages of the course and by Moodle; spaces and case aside.
-const NUMBER: [&str; 10] = [
+const NUMBER: [&str; 15] = [
     "学籍番号",
     "学生番号",
+    "学生証番号",
     "studentnumber",
+    "studentno",
     "studentid",
+    "matrikelnummer",
     "idnumber",
     "idナンバー",
+    "sisuserid",
+    "sid",
     "ユーザ名",
     "ユーザー名",
     "username",
     "number",
 ];
-const NAME: [&str; 7] = ["氏名", "名前", "姓名", "フルネーム", "fullname", "name", "studentname"];
+const NAME: [&str; 9] =
+    ["氏名", "学生氏名", "名前", "姓名", "フルネーム", "fullname", "name", "studentname", "student"];
 const FAMILY: [&str; 5] = ["姓", "surname", "lastname", "familyname", "last"];
 const GIVEN: [&str; 5] = ["名", "firstname", "givenname", "forename", "first"];
 const MOODLE: [&str; 2] = ["識別子", "identifier"];
 const GROUP: [&str; 6] = ["グループ", "班", "クラス", "group", "groups", "section"];
+
+/// Lines in which a heading is looked for: some lists begin with the name of the course.
+const ABOVE: usize = 10;
 
 /// Mistakes that one message lists.
 const LISTED: usize = 5;
@@ -41,10 +50,12 @@ struct Heading {
 
 impl Heading {
     /// A heading names the column of the numbers; a line without that is none.
-    fn of(cells: &[&str]) -> Option<Self> {
+    fn of(cells: &[String]) -> Option<Self> {
         let folded: Vec<String> = cells
             .iter()
-            .map(|cell| cell.nfkc().filter(|c| !c.is_whitespace() && *c != '_').collect::<String>().to_lowercase())
+            .map(|cell| {
+                cell.nfkc().filter(|c| !c.is_whitespace() && !"_.".contains(*c)).collect::<String>().to_lowercase()
+            })
             .collect();
         // The first name of the list counts: Moodle has both an ID number and a username.
         let find = |names: &[&str]| names.iter().find_map(|name| folded.iter().position(|cell| cell == name));
@@ -60,10 +71,11 @@ impl Heading {
     }
 }
 
-/// The students of a roster: a CSV file with commas, semicolons or tabs, UTF-8 or Shift_JIS.
+/// The students of a roster: a CSV file with commas, semicolons or tabs, in whatever encoding a spreadsheet saves.
 ///
-/// A heading says which column is which. Without one, the first cell of a line that is a student number is the number, and
-/// the first other cell the name. A line without a number is a heading where it is the first, and a mistake elsewhere.
+/// A heading says which column is which; what stands above it is left aside. Without one, the first cell of a line that is a
+/// student number is the number, and the first other cell the name. A line without a number is a heading where it is the
+/// first, and a mistake elsewhere.
 pub fn read(bytes: &[u8]) -> Result<Vec<RosterLine>, Problem> {
     if bytes.starts_with(b"PK\x03\x04") || bytes.starts_with(b"\xd0\xcf\x11\xe0") {
         return Err(Problem::unprocessable(
@@ -71,34 +83,17 @@ pub fn read(bytes: &[u8]) -> Result<Vec<RosterLine>, Problem> {
             "これは Excel ブックまたは ZIP で、CSV ファイルではありません。Excel で「名前を付けて保存」から「CSV UTF-8」を選んで保存してください。名簿は変更していません。",
         ));
     }
-    let text = match std::str::from_utf8(bytes) {
-        Ok(text) => text.trim_start_matches('\u{feff}').to_owned(),
-        Err(_) => encoding_rs::SHIFT_JIS.decode(bytes).0.into_owned(),
-    };
-    let first = text.lines().next().unwrap_or_default();
-    let delimiter = ['\t', ',', ';'].into_iter().find(|c| first.contains(*c)).unwrap_or(',') as u8;
-    let mut reader =
-        csv::ReaderBuilder::new().has_headers(false).flexible(true).delimiter(delimiter).from_reader(text.as_bytes());
+    let text = crate::source::decoded_text(bytes);
+    if let Some(problem) = open_quotation(&text) {
+        return Err(problem);
+    }
+    let records = records(&text);
+    let found = records.iter().take(ABOVE).enumerate().find_map(|(at, (_, cells))| Some((at, Heading::of(cells)?)));
+    let (above, heading) = found.map_or((0, None), |(at, heading)| (at + 1, Some(heading)));
     let mut roster: Vec<RosterLine> = Vec::new();
     let mut lines: HashMap<String, (usize, u64)> = HashMap::new();
-    let mut heading = None;
     let (mut without, mut twice) = (Vec::new(), Vec::new());
-    for (index, record) in reader.records().enumerate() {
-        let Ok(record) = record else {
-            without.push(index as u64 + 1);
-            continue;
-        };
-        let line = record.position().map_or(index as u64 + 1, csv::Position::line);
-        let cells: Vec<&str> = record.iter().map(str::trim).collect();
-        if cells.iter().all(|cell| cell.is_empty()) {
-            continue;
-        }
-        if index == 0 {
-            heading = Heading::of(&cells);
-            if heading.is_some() {
-                continue;
-            }
-        }
+    for (index, (line, cells)) in records.into_iter().enumerate().skip(above) {
         match heading.as_ref().map_or_else(|| by_shape(&cells), |heading| by_heading(heading, &cells)) {
             None if index == 0 => {}
             None => without.push(line),
@@ -124,8 +119,47 @@ pub fn read(bytes: &[u8]) -> Result<Vec<RosterLine>, Problem> {
     Ok(roster)
 }
 
-fn by_heading(heading: &Heading, cells: &[&str]) -> Option<RosterLine> {
-    let cell = |column: Option<usize>| column.and_then(|column| cells.get(column)).copied().unwrap_or_default();
+/// The lines that have something, by their numbers.
+fn records(text: &str) -> Vec<(u64, Vec<String>)> {
+    let delimiters = [';', '\t', ','];
+    let first = text.lines().find(|line| line.contains(delimiters)).unwrap_or_default();
+    // What stands between quotation marks separates nothing.
+    let outside: String = first.split('"').step_by(2).collect();
+    let count = |delimiter: &char| outside.matches(*delimiter).count();
+    let delimiter = delimiters.into_iter().max_by_key(count).unwrap_or(',') as u8;
+    let mut reader =
+        csv::ReaderBuilder::new().has_headers(false).flexible(true).delimiter(delimiter).from_reader(text.as_bytes());
+    let numbered = reader.records().filter_map(Result::ok).map(|record| {
+        let line = record.position().map_or(0, csv::Position::line);
+        (line, record.iter().map(one_line).collect::<Vec<_>>())
+    });
+    numbered.filter(|(_, cells)| cells.iter().any(|cell| !cell.is_empty())).collect()
+}
+
+/// A cell without what surrounds it, its lines behind one another.
+fn one_line(cell: &str) -> String {
+    cell.trim().lines().map(str::trim).collect::<Vec<_>>().join(" ")
+}
+
+/// The refusal of a quotation mark that nothing closes: all lines behind it would be one cell.
+fn open_quotation(text: &str) -> Option<Problem> {
+    let mut odd = text.lines().zip(1..).filter(|(line, _)| line.matches('"').count() % 2 == 1);
+    let (_, line) = odd.next()?;
+    (odd.count() % 2 == 0).then(|| {
+        Problem::unprocessable(
+            format!(
+                "A quotation mark in line {line} of the file is not closed. Correct that line. The roster was not changed."
+            ),
+            format!(
+                "ファイルの {line} 行目の引用符が閉じられていません。その行を修正してください。名簿は変更していません。"
+            ),
+        )
+    })
+}
+
+fn by_heading(heading: &Heading, cells: &[String]) -> Option<RosterLine> {
+    let cell =
+        |column: Option<usize>| column.and_then(|column| cells.get(column)).map(String::as_str).unwrap_or_default();
     let name = match cell(heading.name) {
         "" => format!("{} {}", cell(heading.family), cell(heading.given)).trim().to_owned(),
         name => name.to_owned(),
@@ -138,13 +172,13 @@ fn by_heading(heading: &Heading, cells: &[&str]) -> Option<RosterLine> {
     })
 }
 
-fn by_shape(cells: &[&str]) -> Option<RosterLine> {
+fn by_shape(cells: &[String]) -> Option<RosterLine> {
     let number = |cell: &str| normal_number(cell).filter(|number| number.chars().any(|c| c.is_ascii_digit()));
     let place = cells.iter().position(|cell| number(cell).is_some())?;
     let moodle = cells.iter().find_map(|cell| participant(cell));
     let others = cells.iter().enumerate().filter(|(index, cell)| *index != place && !cell.is_empty());
-    let name = others.map(|(_, cell)| *cell).find(|cell| participant(cell).is_none()).unwrap_or_default();
-    Some(RosterLine { number: number(cells[place])?, name: name.to_owned(), moodle, group: String::new() })
+    let name = others.map(|(_, cell)| cell.as_str()).find(|cell| participant(cell).is_none()).unwrap_or_default();
+    Some(RosterLine { number: number(&cells[place])?, name: name.to_owned(), moodle, group: String::new() })
 }
 
 /// The number in `Participant 1234`, as Moodle's worksheet writes it.
@@ -206,6 +240,19 @@ mod tests {
         assert_eq!(of("No;Name\ns1234567;和田 花子\ns1234568;Smith, J.\ns1234568;Smith, J.\n"), expected);
         let (sjis, _, _) = encoding_rs::SHIFT_JIS.encode("s1234567,和田 花子\n");
         assert_eq!(read(&sjis).expect("a roster"), [line("S1234567", "和田 花子")]);
+        // Excel's “Unicode text”, and its CSV in Europe: a comma may stand in a name.
+        let unicode = "\u{feff}学籍番号\t氏名\r\ns1234567\t和田 花子\r\n";
+        let unicode: Vec<u8> = unicode.encode_utf16().flat_map(u16::to_le_bytes).collect();
+        assert_eq!(read(&unicode).expect("a roster"), [line("S1234567", "和田 花子")]);
+        assert_eq!(of("\"Smith, J., Jr.\";s1234568\n"), [line("S1234568", "Smith, J., Jr.")]);
+        assert_eq!(of("\"学籍\n番号\",氏名\ns1234567,\"和田\r\n花子\"\n"), [line("S1234567", "和田 花子")]);
+    }
+
+    #[test]
+    fn what_stands_above_the_heading_is_no_student() {
+        let list = "科目名,コンピュータグラフィックス 2026\n履修者数,1\n\nNo.,学籍番号,氏名,学年\n1,s1,和田 花子,3\n";
+        assert_eq!(of(list), [line("S1", "和田 花子")]);
+        assert_eq!(of("Name,SID,Email\nHanako Wada,s1,h@example.org\n"), [line("S1", "Hanako Wada")]);
     }
 
     #[test]
@@ -230,6 +277,7 @@ mod tests {
         assert!(said.en.starts_with("Line 2 ") && said.ja.contains("2 行目"), "{said:?}");
         assert!(wrong("number,name\n\ns1,A\n,B\n,C\n").en.starts_with("Lines 4, 5 "));
         assert!(wrong("s1,A\ns2,B\nｓ１,C\n").en.starts_with("Lines 1 and 3 "));
+        assert!(wrong("number,name\ns1,\"Wada\ns2,Ito\ns3,Abe\n").en.starts_with("A quotation mark in line 2 "));
         assert!(wrong("PK\u{3}\u{4}xl/workbook.xml").en.contains("CSV UTF-8"));
         assert!(read(b"").is_err() && read(b"number,name\n").is_err());
     }

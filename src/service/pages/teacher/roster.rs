@@ -8,7 +8,7 @@ use crate::service::acts::Detail;
 use crate::service::api::body::other;
 use crate::service::errors::Problem;
 use crate::service::identity::{LecturerPage, Teacher};
-use crate::service::roster;
+use crate::service::roster::{self, RosterChange};
 use axum::extract::multipart::MultipartRejection;
 use axum::extract::{Multipart, State as Shared};
 use axum::http::{HeaderMap, StatusCode};
@@ -23,8 +23,9 @@ pub(in crate::service::pages) async fn take(
     form: Result<Multipart, MultipartRejection>,
 ) -> Result<Response, Problem> {
     match import(&state, &teacher, form).await {
-        Ok(students) => {
-            let answer = Redirect::to(&format!("{}/settings?done=roster", frame.teacher())).into_response();
+        Ok((students, RosterChange { new, gone })) => {
+            let next = format!("{}/settings?done=roster&new={new}&gone={gone}", frame.teacher());
+            let answer = Redirect::to(&next).into_response();
             Ok(Detail::of(students.to_string()).on(answer))
         }
         Err(problem) if problem.status.is_client_error() => {
@@ -43,7 +44,7 @@ async fn import(
     state: &State,
     teacher: &Teacher,
     form: Result<Multipart, MultipartRejection>,
-) -> Result<usize, Problem> {
+) -> Result<(usize, RosterChange), Problem> {
     let mut form = form.map_err(unreadable)?;
     let (mut csrf, mut bytes) = (String::new(), Vec::new());
     while let Some(field) = form.next_field().await.map_err(unreadable)? {
@@ -56,8 +57,8 @@ async fn import(
     teacher.check_csrf(state, &csrf)?;
     teacher.check_course()?;
     let roster = roster::read(&bytes)?;
-    roster::import(state, &roster).await?;
-    Ok(roster.len())
+    let change = roster::import(state, &roster).await?;
+    Ok((roster.len(), change))
 }
 
 /// An upload that did not arrive, or is no roster by its size alone.

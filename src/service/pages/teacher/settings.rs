@@ -14,6 +14,7 @@ use crate::service::acts::Detail;
 use crate::service::course::{Course, zone_names};
 use crate::service::errors::Problem;
 use crate::service::identity::{self, LecturerPage, Teacher};
+use crate::service::store::StudentRecord;
 use askama::Template;
 use axum::Form;
 use axum::extract::{Query, State as Shared};
@@ -67,6 +68,10 @@ pub(super) struct SettingsNotice {
 #[serde(default)]
 pub(in crate::service::pages) struct SettingsQuery {
     done: String,
+    /// Of a roster: how many students were not on the one before,
+    new: usize,
+    /// and how many of that one are not on it.
+    gone: usize,
 }
 
 /// What was typed, where that could not be taken.
@@ -80,18 +85,39 @@ pub(super) struct Typed {
 pub(in crate::service::pages) async fn page(
     Shared(state): Shared<State>,
     LecturerPage(teacher): LecturerPage,
-    Query(SettingsQuery { done }): Query<SettingsQuery>,
+    Query(query): Query<SettingsQuery>,
     headers: HeaderMap,
     frame: PageFrame,
 ) -> Result<Response, Problem> {
-    let notice = match done.as_str() {
-        "saved" => Some(frame.say("Saved.", "保存しました。")),
-        "link" => Some(frame.say("The old link opens nothing any more.", "以前のリンクは無効になりました。")),
-        "roster" => Some(frame.say("The roster is imported.", "名簿を取り込みました。")),
+    let notice = match query.done.as_str() {
+        "saved" => Some(frame.say("Saved.", "保存しました。").to_owned()),
+        "link" => {
+            Some(frame.say("The old link opens nothing any more.", "以前のリンクは無効になりました。").to_owned())
+        }
+        "roster" => Some(imported(&frame, &query, &state.store.roster().await?)),
         _ => None,
     };
-    let said = SettingsNotice { notice: notice.map(str::to_owned), ..SettingsNotice::default() };
+    let said = SettingsNotice { notice, ..SettingsNotice::default() };
     view(&state, frame, &headers, &teacher, Typed::default(), said).await
+}
+
+/// What was read of a roster, so that a wrong file or column is seen at once.
+fn imported(frame: &PageFrame, query: &SettingsQuery, roster: &[StudentRecord]) -> String {
+    let SettingsQuery { new, gone, .. } = query;
+    let all = roster.len();
+    let first = roster.iter().take(3).map(|student| format!("{} {}", student.number, student.name).trim().to_owned());
+    let first: Vec<String> = first.collect();
+    match frame.language {
+        Language::En => format!(
+            "The roster is imported: {all} on it, {new} of them new; {gone} of the roster before are no longer on it. \
+             It begins with {}.",
+            first.join("; ")
+        ),
+        Language::Ja => format!(
+            "名簿を取り込みました。{all} 人（新規 {new} 人）です。以前の名簿から外れた学生は {gone} 人です。先頭: {}",
+            first.join("、")
+        ),
+    }
 }
 
 /// The page, with what was typed and what is to be said of it.
