@@ -2,6 +2,7 @@
 
 mod api;
 mod archive;
+mod attacks;
 mod bench;
 mod certificates;
 mod classes;

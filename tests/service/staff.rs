@@ -33,10 +33,20 @@ impl<'a> Browser<'a> {
         Self { bench, cookies: Vec::new(), csrf: String::new() }
     }
 
+    /// Its cookies, as it sends them.
+    pub fn cookie_line(&self) -> String {
+        let pairs = self.cookies.iter().map(|(name, value)| format!("{name}={value}"));
+        pairs.collect::<Vec<_>>().join("; ")
+    }
+
+    /// The token of the forms of the page that it opened last.
+    pub fn csrf(&self) -> &str {
+        &self.csrf
+    }
+
     async fn send(&mut self, method: &str, address: &str, fields: &str) -> Reply {
-        let cookies: Vec<String> = self.cookies.iter().map(|(name, value)| format!("{name}={value}")).collect();
         let mut request = Request::builder().method(method).uri(address).header(header::ACCEPT, "text/html");
-        request = request.header(header::ACCEPT_LANGUAGE, "en").header(header::COOKIE, cookies.join("; "));
+        request = request.header(header::ACCEPT_LANGUAGE, "en").header(header::COOKIE, self.cookie_line());
         let body = if method == "GET" { String::new() } else { format!("csrf={}&{fields}", self.csrf) };
         let request = request.header(header::CONTENT_TYPE, "application/x-www-form-urlencoded");
         let reply = self.bench.send(request.body(Body::from(body)).expect("a request")).await;
@@ -193,9 +203,8 @@ async fn each_role_does_what_it_may_and_is_in_the_log(database: Database) {
         assert_eq!(refused.status, StatusCode::FORBIDDEN, "{address}");
     }
     let delete = format!("/api/v1/submissions/{handed_in}");
-    let csrf = assistant.csrf.clone();
-    let cookies: Vec<String> = assistant.cookies.iter().map(|(name, value)| format!("{name}={value}")).collect();
-    let request = Request::delete(&delete).header(header::COOKIE, cookies.join("; ")).header("x-ggrade-csrf", csrf);
+    let request = Request::delete(&delete).header(header::COOKIE, assistant.cookie_line());
+    let request = request.header("x-ggrade-csrf", assistant.csrf());
     let refused = bench.send(request.body(Body::empty()).expect("a request")).await;
     assert_eq!((refused.status, refused.problem().as_str()), (StatusCode::FORBIDDEN, "role"));
     assert_eq!(bench.get(&format!("/r/{handed_in}")).await.status, StatusCode::OK, "nothing is gone");
