@@ -1,10 +1,13 @@
 //! The log of what teachers did, for lecturers to read.
 
+mod words;
+
 use super::super::datetime::TimeElement;
 use super::super::frame::PageFrame;
 use super::super::shown;
 use super::Tab;
 use super::table::Pager;
+use crate::language::Language;
 use crate::service::Service;
 use crate::service::errors::Problem;
 use crate::service::identity::LecturerPage;
@@ -95,13 +98,17 @@ pub(in crate::service::pages) async fn page(
     let total = service.store.count_acts(teacher.homework()).await?;
     let pager = Pager::new(total, &page, |page| format!("?page={page}"));
     let acts = service.store.acts(teacher.homework(), pager.from, pager.to - pager.from).await?;
+    let detail = |act: &str, detail: String| match frame.language {
+        Language::En => detail,
+        Language::Ja => words::in_japanese(act, &detail),
+    };
     let line = |act: NamedAct| ActLine {
         at: frame.exact_moment(act.act.at),
         who: who(&frame, &act),
         act: named(&frame, &act.act.act),
         homework: act.act.assignment.unwrap_or_default(),
         student: act.number.unwrap_or_default(),
-        detail: act.act.detail,
+        detail: detail(&act.act.act, act.act.detail),
     };
     let acts = acts.into_iter().map(line).collect();
     shown(ActsPage { place: Tab::Acts, csrf: teacher.csrf(&service), acts, pager, frame }.render())
