@@ -3,6 +3,7 @@
 use super::datetime::TimeElement;
 use super::frame::PageFrame;
 use super::report_fragment;
+use crate::language::Language;
 use crate::report::Report;
 use crate::report::labels::{mistake_title, rubric_label};
 use crate::report::text::number;
@@ -75,6 +76,13 @@ pub(super) struct Question {
     pub lines: Vec<(String, String)>,
 }
 
+/// The lines of the rubric by id and name, those that lost points before the others.
+fn asked_first(report: &Report, language: Language) -> Vec<(String, String)> {
+    let mut lines: Vec<_> = report.rubric.iter().collect();
+    lines.sort_by_key(|line| line.points >= line.max_points);
+    lines.into_iter().map(|line| (line.id.clone(), line.label.get(language).to_owned())).collect()
+}
+
 /// Everything of it on one page.
 pub(super) struct Judgement {
     /// None for who does not teach.
@@ -107,10 +115,8 @@ impl Judgement {
             (true, Some(asker)) => state.store.appeal_of(&submission.assignment, asker).await?,
             _ => None,
         };
-        let question = (is_theirs && appeal.is_none()).then(|| Question {
-            csrf: visitor.csrf(state),
-            lines: report.rubric.iter().map(|it| (it.id.clone(), it.label.get(frame.language).to_owned())).collect(),
-        });
+        let question = (is_theirs && appeal.is_none())
+            .then(|| Question { csrf: visitor.csrf(state), lines: asked_first(report, frame.language) });
         let shown = match appeal {
             Some(appeal) => Some(appeal).filter(|appeal| appeal.submission_id == submission.id),
             None if desk.is_some() => state.store.appeal_about(&submission.id).await?,
