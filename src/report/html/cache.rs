@@ -4,10 +4,13 @@ use crate::fault::Fault;
 use crate::report::Area;
 use std::sync::{Arc, Mutex, PoisonError, Weak};
 
+/// A part of the pictures, and the number of what is made of it.
+type Variant = (Area, usize);
+
 /// Things made of shared pictures, for as long as somebody has these.
 pub(super) struct PictureCache<K: ?Sized, V> {
-    /// Of which pictures, of which part of them, in which variant, and what was made.
-    made: Mutex<Vec<(Weak<K>, (Area, usize), V)>>,
+    /// Of which pictures, in which variant, and what was made.
+    made: Mutex<Vec<(Weak<K>, Variant, V)>>,
 }
 
 impl<K: ?Sized, V: Clone> PictureCache<K, V> {
