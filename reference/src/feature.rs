@@ -17,22 +17,36 @@ pub enum Feature {
 }
 
 impl Assignment {
-    /// The value that is missing in the solution without what a line of the rubric judges: the solution, and the stage and the site
-    /// of the value in it. None where what is replaced is no value by itself.
-    pub fn feature_value(&self, line: usize) -> Option<(TracedProgram, Stage, usize)> {
+    /// The value that is missing in the solution without what a line of the rubric judges, and what is there instead: the solution
+    /// with the one and with the other, and the stage and the site of the value in it. None where what is replaced is no value by
+    /// itself.
+    pub fn feature_values(&self, line: usize) -> Option<[(TracedProgram, Stage, usize); 2]> {
         let Some(Feature::Program(program)) = self.features.get(line)? else { return None };
-        let [[value, _]] = program.replaced.as_slice() else { return None };
-        let file = self.files.iter().position(|file| file.solution.text.contains(value.as_str()))?;
+        let [[value, instead]] = program.replaced.as_slice() else { return None };
+        Some([self.with_value(value, value)?, self.with_value(value, instead)?])
+    }
+
+    /// Whether a line judges a value by itself, and not a way in which all is drawn.
+    pub fn judges_a_value(&self, line: usize) -> bool {
+        match self.features.get(line) {
+            Some(Some(Feature::Program(program))) => program.replaced.len() == 1,
+            _ => true,
+        }
+    }
+
+    /// The solution with something in the place of a text that stands in it, and the site of that.
+    fn with_value(&self, value: &str, instead: &str) -> Option<(TracedProgram, Stage, usize)> {
+        let file = self.files.iter().position(|file| file.solution.text.contains(value))?;
         let mut texts: Vec<(Stage, String)> =
             self.files.iter().map(|file| (file.stage.into(), file.solution.text.clone())).collect();
         let (stage, text) = &mut texts[file];
         let stage = *stage;
         // On a line of its own it is told from all else.
-        let (before, behind) = text.split_once(value.as_str())?;
+        let (before, behind) = text.split_once(value)?;
         let own = before.lines().count() as u32 + 1;
-        *text = format!("{before}\n{value}\n{behind}");
+        *text = format!("{before}\n{instead}\n{behind}");
         let texts: Vec<(Stage, &str)> = texts.iter().map(|(stage, text)| (*stage, text.as_str())).collect();
-        let solution = TracedProgram::new(self, &texts).ok().filter(|_| !value.contains('\n'))?;
+        let solution = TracedProgram::new(self, &texts).ok().filter(|_| !instead.contains('\n'))?;
         let sites = solution.stage(stage).sites();
         let there = || sites.iter().enumerate().filter(|(_, site)| site.line == own);
         let is_whole = |at: usize| !there().any(|(_, site)| site.operands.contains(&at));

@@ -6,10 +6,11 @@
 
 use super::Evidence;
 use super::columns::{ScalarColumns, is_constant, is_number, is_same, of_places};
-use super::inside::made_of;
+use super::inside::{self, made_of};
 use super::trials::{FUEL_OF_TRACE, StageChanges, change, is_drawn, place};
 use glam::DVec3;
 use reference::assignment::RubricLine;
+use reference::equation::Reads;
 use reference::fit::TermJudgement;
 use reference::interpreter::Stage;
 use reference::interpreter::trace::{Event, Trace};
@@ -21,7 +22,7 @@ const STRIDE: usize = 7;
 
 /// What is added to a value to see what becomes of it, in red, green and blue: other than any constant of a homework, and
 /// different so that no channel passes for another.
-const ADDED: [f64; 3] = [0.173, 0.139, 0.111];
+pub(super) const ADDED: [f64; 3] = [0.173, 0.139, 0.111];
 
 /// A value beyond this counts as 0, as what is not finite does: such a term costs the others nothing. Those of a right answer
 /// stay below 100.
@@ -38,15 +39,25 @@ const MOST_CANDIDATES: usize = 24;
 
 /// The judgements; right are also the terms that the text adds as they are. One stays wrong, for the sum is.
 pub(super) fn credit(evidence: &Evidence<'_>, judged: Vec<TermJudgement>) -> Vec<TermJudgement> {
+    if evidence.assignment.equation.reads() == Reads::Outputs {
+        return credited(evidence, judged, &inside::added_lines(evidence));
+    }
     let Some(mut text) = TextEvaluation::of(evidence) else { return judged };
     let mut is_added = |judgement: &TermJudgement| {
         let line = evidence.assignment.rubric.iter().find(|line| line.id == judgement.line);
         line.is_some_and(|line| text.adds(line))
     };
+    let added: Vec<String> =
+        judged.iter().filter(|judgement| is_added(judgement)).map(|own| own.line.clone()).collect();
+    credited(evidence, judged, &added)
+}
+
+/// The judgements; right are also these lines, unless they are all that is wrong.
+pub(super) fn credited(evidence: &Evidence<'_>, judged: Vec<TermJudgement>, lines: &[String]) -> Vec<TermJudgement> {
     let samples = evidence.samples.len();
-    let credited = judged.iter().map(|judgement| {
-        let is_right = judgement.is_right() || is_added(judgement);
-        if is_right { TermJudgement::right(&judgement.line, samples) } else { judgement.clone() }
+    let credited = judged.iter().map(|judgement| match lines.contains(&judgement.line) {
+        true => TermJudgement::right(&judgement.line, samples),
+        false => judgement.clone(),
     });
     let credited: Vec<TermJudgement> = credited.collect();
     if credited.iter().all(TermJudgement::is_right) { judged } else { credited }
@@ -205,7 +216,7 @@ fn is_it(event: &Event, colour: &ScalarColumns) -> bool {
 }
 
 /// Whether the colour moves by so much; `None` where that cannot be seen.
-fn passes(before: DVec3, after: DVec3, wanted: DVec3) -> Option<bool> {
+pub(super) fn passes(before: DVec3, after: DVec3, wanted: DVec3) -> Option<bool> {
     let channels = before.to_array().into_iter().zip(after.to_array()).zip(wanted.to_array());
     let mut seen = None;
     for ((before, after), added) in channels {

@@ -114,6 +114,12 @@ pub(super) fn cause(evidence: &Evidence<'_>, shape: bool) -> Cause {
     let is_lookup = shows_a_table && !addends::is_computed(evidence);
     // Without the normals the course's own poses can only be right if they are treated apart.
     let is_made_for_the_poses = || frames_agree && hard_coded::ignores_normals(probes, evidence.samples);
+    let is_nearly_right = || is_right(probes, &samples, NEARLY) && evidence.frames.iter().all(is_hardly_off);
+    // Of fragments there are no twins with one number: the text says whether anything is computed.
+    let is_made_of_nothing = || {
+        let is_known = assignment.mistake(HARD_CODED).is_some() && assignment.equation.reads() == Reads::Outputs;
+        is_known && !is_dark(evidence.samples) && inside::ignores_all(evidence)
+    };
     match plain::explained(assignment, evidence.source, probes, &samples, COLOUR_TOLERANCE) {
         // What computes a right term has it multiplied by 0, or left out.
         Fit::Explained(found)
@@ -129,13 +135,14 @@ pub(super) fn cause(evidence: &Evidence<'_>, shape: bool) -> Cause {
         }
         // The course's own poses are treated apart from what explains all others.
         Fit::Explained(found) if frames_agree && hard_coded::leaves_nothing(assignment, &found) => Cause::HardCoded,
+        // Some mistakes together come near to nearly anything.
+        Fit::Explained(found) if found.len() > 1 && is_nearly_right() => Cause::NearlyRight,
         Fit::Explained(found) if found.len() == MOST_MISTAKES && !is_borne_out(evidence, &found) => by_term(),
         Fit::Explained(found) if is_dark(evidence.samples) && stands_elsewhere(evidence, &found) => by_term(),
         Fit::Explained(found) => Cause::known(found),
         Fit::Unexplained(_) if is_lookup || is_made_for_the_poses() => Cause::HardCoded,
-        Fit::Unexplained(_) if is_right(probes, &samples, NEARLY) && evidence.frames.iter().all(is_hardly_off) => {
-            Cause::NearlyRight
-        }
+        Fit::Unexplained(_) if is_made_of_nothing() => Cause::HardCoded,
+        Fit::Unexplained(_) if is_nearly_right() => Cause::NearlyRight,
         Fit::Unexplained(terms) => unexplained(evidence, &alternatives, &samples, terms),
     }
 }

@@ -8,7 +8,9 @@
 mod abrupt;
 mod additive;
 mod blame;
+mod features;
 mod finding;
+mod given;
 mod interpolated;
 mod own_values;
 mod quantities;
@@ -23,6 +25,7 @@ use super::locate::{Located, MistakeOrigin, is_handed_out};
 use super::trials::{FUEL_OF_TRACE, StageChanges, Trials, chosen, is_drawn, place};
 use crate::compare::POSITION_TOLERANCE;
 pub(super) use abrupt::decision;
+pub(super) use given::ignores_all;
 use glam::DVec3;
 pub(super) use own_values::own_values;
 use quantities::Quantities;
@@ -121,6 +124,11 @@ pub(super) fn computes(evidence: &Evidence<'_>, definition: &str) -> bool {
 /// The ids of the rubric's lines of which the text computes the very value that they judge, on the way of what is seen.
 pub(super) fn computed_lines(evidence: &Evidence<'_>) -> Vec<String> {
     within(evidence, evidence.assignment, &[], &[], |search| search.computed_lines()).unwrap_or_default()
+}
+
+/// The ids of those of which the text also adds that value to what is seen as it is.
+pub(super) fn added_lines(evidence: &Evidence<'_>) -> Vec<String> {
+    within(evidence, evidence.assignment, &[], &[], |search| search.added_lines()).unwrap_or_default()
 }
 
 /// The one place that all is mended at, where there is such a place.

@@ -1,7 +1,7 @@
 //! What an answer that is wrong somewhere keeps, for its text computes that right.
 
-use crate::diagnose::Evidence;
 use crate::diagnose::inside::{self, Finding};
+use crate::diagnose::{Evidence, addends};
 use reference::assignment::RubricLine;
 use reference::derived::is_derived;
 use reference::equation::Reads;
@@ -41,10 +41,26 @@ pub fn by_text(evidence: &Evidence<'_>, found: &[FoundMistake]) -> Vec<String> {
     if assignment.equation.reads() != Reads::Outputs || !found.iter().all(|found| is_derived(&found.id)) {
         return Vec::new();
     }
-    let spared = inside::computed_lines(evidence);
     let costs = |line: &&RubricLine| found.iter().any(|found| assignment.keeps(found, line) < 1.0);
-    let is_all = assignment.rubric.iter().filter(costs).all(|line| spared.contains(&line.id));
-    if is_all { Vec::new() } else { spared }
+    let costly: Vec<&str> = assignment.rubric.iter().filter(costs).map(|line| line.id.as_str()).collect();
+    let spared = computed_of(evidence, &costly);
+    if costly.iter().all(|id| spared.iter().any(|own| own == id)) { Vec::new() } else { spared }
+}
+
+/// The lines of which the text computes what they judge. Where one of these `wrong` ones is left that judges a value, the ways in
+/// which all is drawn are right as well: of a right answer's value in its place, all is right.
+fn computed_of(evidence: &Evidence<'_>, wrong: &[&str]) -> Vec<String> {
+    let rubric = &evidence.assignment.rubric;
+    let mut lines = inside::computed_lines(evidence);
+    let is_value = |number: usize| evidence.assignment.judges_a_value(number);
+    let is_left = |(number, line): (usize, &RubricLine)| {
+        is_value(number) && wrong.contains(&line.id.as_str()) && !lines.contains(&line.id)
+    };
+    if rubric.iter().enumerate().any(is_left) {
+        let ways = rubric.iter().enumerate().filter(|(number, _)| !is_value(*number));
+        lines.extend(ways.map(|(_, line)| line.id.clone()));
+    }
+    lines
 }
 
 /// The judgements; right are also the lines of which the text computes what they judge, unless these are all.
@@ -52,12 +68,7 @@ pub fn computed(evidence: &Evidence<'_>, terms: Vec<TermJudgement>) -> Vec<TermJ
     if evidence.assignment.equation.reads() != Reads::Outputs {
         return terms;
     }
-    let lines = inside::computed_lines(evidence);
-    let judged = evidence.samples.len();
-    let credited = terms.iter().map(|term| match lines.contains(&term.line) {
-        true => TermJudgement::right(&term.line, judged),
-        false => term.clone(),
-    });
-    let credited: Vec<TermJudgement> = credited.collect();
-    if credited.iter().all(TermJudgement::is_right) { terms } else { credited }
+    let wrong: Vec<&str> = terms.iter().filter(|term| !term.is_right()).map(|term| term.line.as_str()).collect();
+    let lines = computed_of(evidence, &wrong);
+    addends::credited(evidence, terms, &lines)
 }

@@ -1,7 +1,7 @@
 //! Whether a place that would mend everything is the one to speak of.
 
 use super::search::{Mend, ONES, Search};
-use super::{Binary, Trace, What};
+use super::{Binary, Stage, Trace, What};
 use crate::diagnose::columns::{is_colour, is_constant, is_equal, is_same};
 use glam::DVec3;
 use reference::interpreter::Scalar;
@@ -107,9 +107,10 @@ impl Search<'_, '_> {
         lines.len() > 1
     }
 
-    /// Whether a value is what an output is given.
+    /// Whether a value is what an output of the last stage is given.
     pub(super) fn goes_out(&self, mend: &Mend) -> bool {
-        let outputs = self.trace(mend.stage).map(|trace| &trace.outputs);
+        let is_last = mend.stage == Stage::Fragment || self.trace(Stage::Fragment).is_none();
+        let outputs = self.trace(mend.stage).filter(|_| is_last).map(|trace| &trace.outputs);
         outputs.is_some_and(|outputs| outputs.iter().flatten().any(|event| mend.suspect.events.contains(event)))
     }
 

@@ -6,19 +6,22 @@ use glam::DVec3;
 use reference::Assignment;
 use reference::equation::EquationVariant;
 use reference::interpreter::trace::{Event, Trace, What};
-use reference::interpreter::{Binary, Program, Scalar, Stage};
+use reference::interpreter::{Binary, Interpolation, Program, Scalar, Stage};
 use reference::traced::TracedProgram;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A value of the right answer.
 #[derive(Clone, Debug)]
 pub(super) struct Quantity {
+    /// The stage in whose texts it may stand.
     pub stage: Stage,
+    /// The stage of the right answer that computes it.
+    pub computed_in: Stage,
     /// The variables that are given it.
     pub names: Vec<String>,
     /// Each time that it is computed.
     pub turns: Vec<ScalarColumns>,
-    /// Where it is computed: the events of the right answer's trace.
+    /// Where it is computed: the events of the right answer's trace of that stage.
     events: Vec<usize>,
     pub is_bool: bool,
     /// Whether it is written as it is, or read: what may stand in the place of a number.
@@ -59,10 +62,64 @@ impl Quantities {
             quantities.doings[stage as usize] = trace.events.iter().map(doing).collect();
             let mut own = of_stage(stage, program, &trace);
             own.extend(partial_sums(&own));
+            own.extend(siblings(&own));
             quantities.all.append(&mut own);
             quantities.traces[stage as usize] = Some(trace);
         }
+        let flat = quantities.handed_over_flat(solution);
+        quantities.all.extend(flat);
         quantities
+    }
+
+    /// What the right answer's vertex stage computes on the way to an output that is flat: a text may as well compute it in the
+    /// fragment stage, from what it is handed of the triangle's last vertex.
+    fn handed_over_flat(&self, solution: &TracedProgram) -> Vec<Quantity> {
+        let [Some(vertex), Some(fragment)] = &self.traces else { return Vec::new() };
+        let outputs = solution.stage(Stage::Vertex).outputs().iter().zip(&vertex.outputs);
+        let flat = outputs.filter(|(output, _)| output.interpolation == Interpolation::Flat);
+        let roots: Vec<usize> = flat.flat_map(|(_, events)| events.clone()).collect();
+        let way = made_of(vertex, &roots);
+        let lanes = fragment.events.first().map_or(0, |event| event.lanes.len());
+        let last = |column: &Vec<f64>| at_last_corner(column, lanes);
+        let columns = |columns: &ScalarColumns| -> ScalarColumns { columns.iter().map(last).collect() };
+        let is_on_the_way =
+            |own: &&Quantity| own.stage == Stage::Vertex && own.events.iter().any(|at| way.contains(at));
+        let handed = self.all.iter().filter(is_on_the_way).map(|own| Quantity {
+            stage: Stage::Fragment,
+            turns: own.turns.iter().map(columns).collect(),
+            addends: own.addends.iter().map(|(name, addend)| (name.clone(), columns(addend))).collect(),
+            ..own.clone()
+        });
+        let is_new = |one: &Quantity| {
+            let known = self.all.iter().filter(|own| own.stage == Stage::Fragment);
+            !known.flat_map(|own| &own.turns).any(|turn| is_equal(turn, &one.turns[0]))
+        };
+        handed.filter(is_new).collect()
+    }
+
+    /// What is made of a value, or of what it is made of, where the right answer finishes the one or the other, see
+    /// [`Self::finishes`].
+    pub fn finished(&self, stage: Stage, trace: &Trace, event: &Event) -> Option<&Quantity> {
+        let from = event.from.iter().map(|from| &trace.events[*from]);
+        let known: Vec<&Quantity> =
+            std::iter::once(event).chain(from).filter_map(|own| self.equal_to(stage, own)).collect();
+        let is_it = |own: &&Quantity| {
+            own.stage == stage
+                && own.turns.len() == 1
+                && own.turns[0].len() == event.values.len()
+                && known.iter().any(|known| self.finishes(own, known))
+        };
+        self.all.iter().find(is_it)
+    }
+
+    /// Whether two are computed alike from different things: none of them is made of the other one.
+    pub fn are_apart(&self, a: &Quantity, b: &Quantity) -> bool {
+        let Some(trace) = &self.traces[a.computed_in as usize] else { return false };
+        let is_made = |of: &Quantity, from: &Quantity| {
+            let way = made_of(trace, &of.events);
+            from.events.iter().any(|event| way.contains(event))
+        };
+        a.computed_in == b.computed_in && !is_made(a, b) && !is_made(b, a)
     }
 
     /// The definitions as a variant of the equation has them; its colours.
@@ -102,8 +159,8 @@ impl Quantities {
     /// Whether a quantity is another one, clamped or made a unit vector: what is done to a value where it is computed, not
     /// where it is used.
     pub fn finishes(&self, of: &Quantity, on: &Quantity) -> bool {
-        let Some(trace) = &self.traces[of.stage as usize] else { return false };
-        let doings = &self.doings[of.stage as usize];
+        let Some(trace) = &self.traces[of.computed_in as usize] else { return false };
+        let doings = &self.doings[of.computed_in as usize];
         let finishes = |event: &usize| {
             let is_finish = match &doings[*event] {
                 What::Call(name) => FINISHING.contains(&name.as_str()),
@@ -139,8 +196,8 @@ impl Quantities {
         if let Some(own) = quantity.names.first() {
             return Some(own.clone());
         }
-        let trace = self.traces[quantity.stage as usize].as_ref()?;
-        let names = &self.names[quantity.stage as usize];
+        let trace = self.traces[quantity.computed_in as usize].as_ref()?;
+        let names = &self.names[quantity.computed_in as usize];
         let mut made = vec![false; trace.events.len()];
         quantity.events.iter().for_each(|event| made[*event] = true);
         for (number, event) in trace.events.iter().enumerate() {
@@ -151,8 +208,8 @@ impl Quantities {
 
     /// The names of what a quantity is computed from, its own, and those of what is computed from it.
     pub fn touched_by(&self, quantity: &Quantity) -> Vec<String> {
-        let Some(trace) = &self.traces[quantity.stage as usize] else { return Vec::new() };
-        let names = &self.names[quantity.stage as usize];
+        let Some(trace) = &self.traces[quantity.computed_in as usize] else { return Vec::new() };
+        let names = &self.names[quantity.computed_in as usize];
         let mut is_touched = vec![false; trace.events.len()];
         quantity.events.iter().for_each(|event| is_touched[*event] = true);
         for (number, event) in trace.events.iter().enumerate() {
@@ -165,6 +222,14 @@ impl Quantities {
         found.dedup();
         found
     }
+}
+
+/// What a flat output hands over of a value at three corners for each place, to so many samples.
+pub(super) fn at_last_corner<T: Copy>(column: &[T], lanes: usize) -> Vec<T> {
+    const CORNERS: usize = 3;
+    let each = CORNERS * lanes / column.len().max(1);
+    let own = column.iter().skip(CORNERS - 1).step_by(CORNERS);
+    own.flat_map(|value| std::iter::repeat_n(*value, each)).collect()
 }
 
 /// The events that some events are computed from, and they themselves.
@@ -204,6 +269,7 @@ fn of_stage(stage: Stage, program: &Program, trace: &Trace) -> Vec<Quantity> {
         let turns: Vec<ScalarColumns> = events.iter().map(|event| trace.events[*event].values.clone()).collect();
         let quantity = |turns: Vec<ScalarColumns>, events: Vec<usize>| Quantity {
             stage,
+            computed_in: stage,
             names: name.iter().cloned().collect(),
             is_constant: turns.iter().all(is_constant),
             addends: events.last().map_or_else(Vec::new, |event| addends(program, trace, *event)),
@@ -222,6 +288,34 @@ fn of_stage(stage: Stage, program: &Program, trace: &Trace) -> Vec<Quantity> {
         add(&mut found, quantity(turns, events));
     }
     found
+}
+
+/// Quantities whose names differ in their numbers alone, `l1` and `l2`, as a loop or a function computes them one after the other.
+fn siblings(all: &[Quantity]) -> Vec<Quantity> {
+    let stem = |own: &Quantity| -> Option<String> {
+        let name = own.names.first().filter(|_| own.turns.len() == 1)?;
+        let stem = name.trim_end_matches(|c: char| c.is_ascii_digit());
+        (stem.len() < name.len() && !stem.is_empty()).then(|| stem.to_owned())
+    };
+    let mut families: BTreeMap<String, Vec<&Quantity>> = BTreeMap::new();
+    for own in all {
+        if let Some(stem) = stem(own) {
+            families.entry(stem).or_default().push(own);
+        }
+    }
+    let family = |members: Vec<&Quantity>| {
+        let first = (*members.first()?).clone();
+        let is_alike = |own: &&Quantity| own.turns[0].len() == first.turns[0].len() && own.is_bool == first.is_bool;
+        (members.len() > 1 && members.iter().all(is_alike)).then(|| Quantity {
+            names: members.iter().flat_map(|own| own.names.clone()).collect(),
+            turns: members.iter().flat_map(|own| own.turns.clone()).collect(),
+            events: members.iter().flat_map(|own| own.events.clone()).collect(),
+            is_constant: members.iter().all(|own| own.is_constant),
+            is_leaf: false,
+            ..first
+        })
+    };
+    families.into_values().filter_map(family).collect()
 }
 
 /// Most addends of a sum some of which may be added by themselves.
@@ -251,6 +345,7 @@ fn partial_sums(all: &[Quantity]) -> Vec<Quantity> {
         });
         Quantity {
             stage: whole.stage,
+            computed_in: whole.computed_in,
             names: Vec::new(),
             is_constant: is_constant(&total),
             events: events.collect(),

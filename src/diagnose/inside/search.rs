@@ -15,6 +15,9 @@ const PLAIN: [f64; 4] = [1.0, 0.0, -1.0, 2.0];
 /// What makes no difference to a product or a sum.
 pub(super) const ONES: [f64; 2] = [1.0, 0.0];
 
+/// So many values are put in the places where a wrong one may begin.
+const MOST_BEGINNINGS: usize = 200;
+
 pub(super) struct Search<'s, 'a> {
     pub evidence: &'s Evidence<'a>,
     pub assignment: &'s Assignment,
@@ -75,35 +78,18 @@ impl Search<'_, '_> {
     /// Whether values on the way of what is seen are what the right answer computes by this name, in each stage that has it.
     pub fn computes(&self, definition: &str) -> bool {
         let is_it = |own: &Quantity| own.names.iter().any(|name| name == definition);
-        let has_it = |stage: &Stage| self.quantities.all.iter().any(|own| own.stage == *stage && is_it(own));
-        let is_computed = |stage: Stage| {
+        let has_it = |stage: &Stage| self.quantities.all.iter().any(|own| own.computed_in == *stage && is_it(own));
+        const STAGES: [Stage; 2] = [Stage::Vertex, Stage::Fragment];
+        let is_computed_in = |stage: Stage, of: Stage| {
             let Some(trace) = self.trace(stage) else { return false };
             let roots: Vec<usize> = trace.outputs.iter().flatten().copied().collect();
             let mut way = made_of(trace, &roots).into_iter();
+            let is_it = |own: &Quantity| own.computed_in == of && is_it(own);
             way.any(|event| self.quantities.equal_to(stage, &trace.events[event]).is_some_and(is_it))
         };
-        let stages: Vec<Stage> = [Stage::Vertex, Stage::Fragment].into_iter().filter(has_it).collect();
+        let is_computed = |of: Stage| STAGES.into_iter().any(|stage| is_computed_in(stage, of));
+        let stages: Vec<Stage> = STAGES.into_iter().filter(has_it).collect();
         !stages.is_empty() && stages.into_iter().all(is_computed)
-    }
-
-    /// The ids of the rubric's lines of which the text computes the value that a solution without them lacks.
-    pub fn computed_lines(&self) -> Vec<String> {
-        let rubric = self.assignment.rubric.iter().enumerate();
-        rubric.filter(|(line, _)| self.computes_feature(*line) == Some(true)).map(|(_, line)| line.id.clone()).collect()
-    }
-
-    fn computes_feature(&self, line: usize) -> Option<bool> {
-        let (solution, stage, site) = self.assignment.feature_value(line)?;
-        let mut bench = Bench::new(self.assignment, &solution, self.places, self.in_quads, FUEL_OF_TRACE)?;
-        let (_, traces) = bench.trace(&StageChanges::default())?;
-        let mut events = traces[stage as usize].as_ref()?.events.iter().filter(|event| event.site == site);
-        let (right, None) = (events.next()?, events.next()) else { return None };
-        let own = self.trace(stage)?;
-        let roots: Vec<usize> = own.outputs.iter().flatten().copied().collect();
-        let is_there = |event: &Event| event.lanes.iter().zip(&right.lanes).all(|(own, right)| *own || !right);
-        let is_it = |event: &Event| is_there(event) && is_same(event, &right.values);
-        let is_way = made_of(own, &roots).into_iter().any(|event| is_it(&own.events[event]));
-        Some(!is_constant(&right.values) && is_way)
     }
 
     /// The suspects of a stage.
@@ -150,10 +136,11 @@ impl Search<'_, '_> {
         // Where the next step makes of it what it should be, and fails, that step is to blame.
         let is_same_end = |giver: &Mend| first.as_ref().is_some_and(|first| first.quantity == giver.quantity);
         if let Some(giver) = giver.filter(|giver| !is_same_end(giver)) {
-            return Some(giver);
+            return Some(self.beginning(&giver).unwrap_or(giver));
         }
         if let Some(first) = first {
-            return Some(self.operand(&first, &own).unwrap_or(first));
+            let found = self.operand(&first, &own).unwrap_or(first);
+            return Some(self.beginning(&found).unwrap_or(found));
         }
         let rest = own.iter().filter(|(stage, one)| self.is_assignment(*stage, one)).chain(&handed_out);
         let rest: Vec<(Stage, Suspect)> = rest.cloned().collect();
@@ -183,6 +170,34 @@ impl Search<'_, '_> {
         };
         let reads: Vec<Suspect> = all.iter().filter(is_read).map(|(_, one)| one.clone()).collect();
         reads.into_iter().find_map(|one| self.mend_at(mend.stage, &one))
+    }
+
+    /// Where it begins that a place has the value of another one of its kind: the first variable on its way that is given what another
+    /// place computes by itself, and with which another value, computed apart from it, makes all right.
+    fn beginning(&mut self, mend: &Mend) -> Option<Mend> {
+        let trace = self.trace(mend.stage)?;
+        let sites = self.theirs.stage(mend.stage).sites();
+        let named = |own: &&Quantity| !own.names.is_empty() && own.turns.len() == 1;
+        let mut tried = Vec::new();
+        for event in made_of(trace, &mend.suspect.events) {
+            let site = trace.events[event].site;
+            let is_only = trace.events.iter().filter(|other| other.site == site).count() == 1;
+            let is_given = matches!(sites[site].what, What::Assign { is_part: false, .. });
+            let right = self.quantities.equal_to(mend.stage, &trace.events[event]).filter(named);
+            let Some(right) = right.filter(|_| is_only && is_given && site != mend.suspect.site) else { continue };
+            let suspect = Suspect { site, events: vec![event], is_right: true, gives_right: true };
+            let is_other = |own: &Mend| {
+                let other = own.quantity.map(|number| &self.quantities.all[number]).filter(named);
+                other.is_some_and(|other| {
+                    other.turns[0].len() == right.turns[0].len() && self.quantities.are_apart(other, right)
+                })
+            };
+            if self.is_students(mend.stage, &suspect) {
+                let all = self.candidates(mend.stage, &suspect).into_iter().filter(is_other);
+                tried.extend(all.filter(|own| self.is_computed_twice(own, trace)));
+            }
+        }
+        tried.into_iter().take(MOST_BEGINNINGS).find(|own| self.mends(own))
     }
 
     /// What a place is computed from in its statement, and the arguments that come to it; none of a condition.
@@ -305,6 +320,14 @@ impl Search<'_, '_> {
             }
             let shaped = events.iter().enumerate().map(|(at, event)| shaped(event, turn(at))).collect();
             found.push(mend(Some(number), shaped));
+        }
+        if events.len() > 1 {
+            let finished = events.iter().map(|event| self.quantities.finished(stage, trace, event));
+            if let Some(each) = finished.collect::<Option<Vec<&Quantity>>>() {
+                let is_it = |own: &Quantity| std::ptr::eq(own, each[0]);
+                let values = events.iter().zip(&each).map(|(event, own)| shaped(event, &own.turns[0])).collect();
+                found.push(mend(self.quantities.all.iter().position(is_it), values));
+            }
         }
         if is_bool {
             for truth in [0.0, 1.0] {

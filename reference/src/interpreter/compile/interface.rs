@@ -152,14 +152,17 @@ impl Compiler {
             return self.storage_buffer(block);
         }
         let members = self.member_types(&block.members)?;
-        let each = |member: &Declaration| vec![member.qualifiers.interpolation; member.variables.len()];
-        let interpolations: Vec<Interpolation> = block.members.iter().flat_map(each).collect();
+        let each = |member: &Declaration| -> Vec<(Interpolation, u32)> {
+            member.variables.iter().map(|own| (member.qualifiers.interpolation, own.line)).collect()
+        };
+        let ways: Vec<(Interpolation, u32)> = block.members.iter().flat_map(each).collect();
         self.builder.line = block.line;
         if &*block.name == "gl_PerVertex" {
             return members.into_iter().try_for_each(|(name, kind)| self.redeclare(&Name::from(name), kind));
         }
         let Some((instance, lengths)) = &block.instance else {
-            for ((name, kind), interpolation) in members.into_iter().zip(interpolations) {
+            for ((name, kind), (interpolation, line)) in members.into_iter().zip(ways) {
+                self.builder.line = line;
                 let slot = self.allocate(&kind)?;
                 self.exchange(storage, &name, &kind, slot)?;
                 self.qualify(storage, interpolation, None);
@@ -176,7 +179,8 @@ impl Compiler {
             self.leaves(&block.name, &kind, slot)?;
         } else if let Type::Struct(structure) = &kind {
             let mut slot = slot;
-            for ((name, kind), interpolation) in structure.members.iter().zip(interpolations) {
+            for ((name, kind), (interpolation, line)) in structure.members.iter().zip(ways) {
+                self.builder.line = line;
                 self.exchange(storage, &format!("{}.{name}", block.name), kind, slot)?;
                 self.qualify(storage, interpolation, None);
                 slot += kind.slots().unwrap_or(0) as Slot;

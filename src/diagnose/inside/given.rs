@@ -1,0 +1,64 @@
+//! What a text is given, and whether its colour has anything of it.
+
+use super::Stage;
+use super::quantities::made_of;
+use crate::diagnose::Evidence;
+use crate::diagnose::columns::is_constant;
+use crate::diagnose::trials::{FUEL_OF_TRACE, StageChanges, chosen, place};
+use reference::interpreter::Program;
+use reference::interpreter::trace::{Trace, What};
+use reference::traced::{Bench, Place};
+use std::collections::BTreeSet;
+
+/// Whether all that is seen is made of nothing that a program gives the shaders: of no attribute and of no uniform.
+pub(in crate::diagnose) fn ignores_all(evidence: &Evidence<'_>) -> bool {
+    let Some(theirs) = evidence.traced else { return false };
+    let places: Vec<Place<'_>> = chosen(evidence).iter().map(|at| place(evidence, *at)).collect();
+    let in_quads = theirs.needs_quads(evidence.assignment);
+    let bench = Bench::new(evidence.assignment, theirs, &places, in_quads, FUEL_OF_TRACE);
+    let traced = bench.and_then(|mut bench| bench.trace(&StageChanges::default()));
+    let Some((_, [vertex, Some(fragment)])) = traced.filter(|_| !places.is_empty()) else { return false };
+    let uniforms = &evidence.assignment.interface.uniforms;
+    let is_uniform = |name: &String| uniforms.iter().any(|own| own.path.split('.').next() == Some(name));
+    let roots: Vec<usize> = fragment.outputs.iter().flatten().copied().collect();
+    let read = read_on_the_way(theirs.stage(Stage::Fragment), &fragment, &roots);
+    let outputs = read.varying.iter().map(|name| theirs.interpolated_from(name)).collect::<Option<Vec<usize>>>();
+    let Some(outputs) = outputs.filter(|_| !read.all.iter().any(is_uniform)) else { return false };
+    let Some(vertex) = vertex else { return outputs.is_empty() };
+    let roots: Vec<usize> = outputs.iter().flat_map(|output| vertex.outputs[*output].clone()).collect();
+    let read = read_on_the_way(theirs.stage(Stage::Vertex), &vertex, &roots);
+    read.varying.is_empty() && !read.all.iter().any(is_uniform)
+}
+
+/// Variables that are read.
+struct Read {
+    all: BTreeSet<String>,
+    /// Those that have another value from place to place which nothing gave them there: inputs.
+    varying: BTreeSet<String>,
+}
+
+/// Inputs that only say which vertex or which pixel it is.
+const NUMBERS: [&str; 6] =
+    ["gl_VertexID", "gl_InstanceID", "gl_PrimitiveID", "gl_FragCoord", "gl_FrontFacing", "gl_PointCoord"];
+
+/// The variables that are read on the way of some events, also where it is decided whether something is computed.
+fn read_on_the_way(program: &Program, trace: &Trace, roots: &[usize]) -> Read {
+    let mut way = BTreeSet::new();
+    let mut open = roots.to_vec();
+    while let Some(event) = open.pop() {
+        for part in made_of(trace, &[event]) {
+            if way.insert(part) {
+                open.extend(&trace.events[part].under);
+            }
+        }
+    }
+    let mut read = Read { all: BTreeSet::new(), varying: BTreeSet::new() };
+    for event in way.into_iter().map(|number| &trace.events[number]) {
+        let What::Read(name) = &program.sites()[event.site].what else { continue };
+        if event.from.is_empty() && !is_constant(&event.values) && !NUMBERS.contains(&name.as_str()) {
+            read.varying.insert(name.clone());
+        }
+        read.all.insert(name.clone());
+    }
+    read
+}
