@@ -146,8 +146,8 @@ fn a_definition_that_the_solution_lacks_is_named_with_those_that_it_has() {
 #[test]
 fn a_solution_that_does_not_compile_is_named_by_its_line() {
     let copy = Copy::new().replace("solution.vert", "normalize(l + v)", "normalize(l + vv)");
-    let expected = "there is no variable `vv`";
-    copy.is_refused("solution.vert", Some(copy.line("solution.vert", "(l + vv)")), expected, expected);
+    let line = copy.line("solution.vert", "(l + vv)");
+    copy.is_refused("solution.vert", Some(line), "there is no variable `vv`", "変数 `vv` がありません");
 }
 
 #[test]
@@ -286,7 +286,7 @@ fn a_variant_that_cannot_be_made_is_named_with_its_line() {
     refused(outline, "\"float\", \"int\"", "`float` stands 3 times in `solution.frag`", "3 回あります");
     refused(outline, "\"sparkle\", \"\"", "`sparkle` stands 0 times", "0 回あります");
     refused("replace = [[\"< 0.3)\", \"< -2.0)\"]]", "", "changes nothing: write `define`", "変わるものがありません");
-    refused(outline, "\"< 0.3)\", \"< none)\"", "there is no variable `none`", "there is no variable `none`");
+    refused(outline, "\"< 0.3)\", \"< none)\"", "there is no variable `none`", "変数 `none` がありません");
     // A name of a definition where the solution's are not told apart says why they are not.
     let copy = toon().replace(MANIFEST, "id = \"outline\"\n", "id = \"outline\"\njudges = \"lit\"\n");
     let line = copy.line("solution.frag", "lit = floor");
