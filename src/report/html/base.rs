@@ -24,8 +24,8 @@ pub(super) struct ExpectedSheets {
 impl ExpectedSheets {
     /// The base for a part of these pictures, outside of which there is only background.
     pub fn of(expected: &Arc<[Picture]>, grid: SheetGrid, part: Area) -> Result<Arc<Self>, Fault> {
-        static MADE: PictureCache<[Picture], Arc<ExpectedSheets>> = PictureCache::new();
-        MADE.get(expected, part, 1, || {
+        static MADE: PictureCache<[Picture], Area, Arc<ExpectedSheets>> = PictureCache::new();
+        MADE.get(expected, part, || {
             let shots = Shots::of(expected, part).ok_or_else(mismatched)?;
             let (yours, difference) = (shots.sheet(grid, 1), shots.difference(&shots, grid, 1));
             Ok(Arc::new(Self { grid, part, yours, difference }))

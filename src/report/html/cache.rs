@@ -1,32 +1,21 @@
 //! What is made once for all pages that show the same pictures.
 
 use crate::fault::Fault;
-use crate::report::Area;
 use std::sync::{Arc, Mutex, PoisonError, Weak};
 
-/// A part of the pictures, and the number of what is made of it.
-type Variant = (Area, usize);
-
-/// Things made of shared pictures, for as long as somebody has these.
-pub(super) struct PictureCache<K: ?Sized, V> {
+/// Things made of shared pictures, in variants that `N` tells apart, for as long as somebody has these pictures.
+pub(super) struct PictureCache<K: ?Sized, N, V> {
     /// Of which pictures, in which variant, and what was made.
-    made: Mutex<Vec<(Weak<K>, Variant, V)>>,
+    made: Mutex<Vec<(Weak<K>, N, V)>>,
 }
 
-impl<K: ?Sized, V: Clone> PictureCache<K, V> {
+impl<K: ?Sized, N: PartialEq, V: Clone> PictureCache<K, N, V> {
     pub const fn new() -> Self {
         Self { made: Mutex::new(Vec::new()) }
     }
 
-    /// What `make` makes of a part of `pictures` in this variant, unless it is there already.
-    pub fn get(
-        &self,
-        pictures: &Arc<K>,
-        part: Area,
-        variant: usize,
-        make: impl FnOnce() -> Result<V, Fault>,
-    ) -> Result<V, Fault> {
-        let variant = (part, variant);
+    /// What `make` makes of `pictures` in this variant, unless it is there already.
+    pub fn get(&self, pictures: &Arc<K>, variant: N, make: impl FnOnce() -> Result<V, Fault>) -> Result<V, Fault> {
         let lock = || self.made.lock().unwrap_or_else(PoisonError::into_inner);
         let is_this = |of: &Weak<K>| Weak::ptr_eq(of, &Arc::downgrade(pictures));
         let known = lock().iter().find(|(of, known, _)| *known == variant && is_this(of)).map(|(.., v)| v.clone());

@@ -58,9 +58,9 @@ impl Film {
     /// The film of a grading, in every pixel or, where that is too large, in some of them; none when nothing was drawn. Gradings that
     /// share their pictures have one film.
     pub fn of(yours: &Arc<[Picture]>, expected: &Arc<[Picture]>, shown: FilmUse) -> Result<Option<Arc<Self>>, Fault> {
-        static MADE: PictureCache<[Picture], MadeFilm> = PictureCache::new();
+        static MADE: PictureCache<[Picture], FilmUse, MadeFilm> = PictureCache::new();
         let make = || Ok((Arc::clone(expected), Self::made(yours, expected, shown)?.map(Arc::new)));
-        let (of, film) = MADE.get(yours, Area::default(), shown as usize, make)?;
+        let (of, film) = MADE.get(yours, shown, make)?;
         // Answers to two homeworks may draw the same.
         if Arc::ptr_eq(&of, expected) { Ok(film) } else { Ok(make()?.1) }
     }
@@ -109,7 +109,7 @@ impl Film {
 
     /// Where a page that holds all pictures itself finds them. `still`: the PNG of a single frame.
     pub fn embedded(&self, pictures: &Pictures, still: Option<Vec<u8>>) -> Result<PictureAddresses, Fault> {
-        static TERMS: PictureCache<[TermPictures], Arc<[TermFilm]>> = PictureCache::new();
+        static TERMS: PictureCache<[TermPictures], (), Arc<[TermFilm]>> = PictureCache::new();
         let address = |picture: &Picture| {
             let whole = Raster::opaque(picture)?;
             let png = encode_small(&whole)?;
@@ -127,7 +127,7 @@ impl Film {
             difference: inline(&self.difference),
             is_reduced: self.is_reduced,
             still: still.map(|png| inline(&png)),
-            terms: TERMS.get(&pictures.terms, Area::default(), 1, || pictures.terms.iter().map(term).collect())?,
+            terms: TERMS.get(&pictures.terms, (), || pictures.terms.iter().map(term).collect())?,
         })
     }
 }
@@ -146,8 +146,8 @@ fn reduced_sheet(expected: &[Picture], part: Area, factor: usize) -> Result<Canv
 
 /// The sheet of a part of it, inside a page.
 fn expected_address(expected: &Arc<[Picture]>, part: Area, factor: usize) -> Result<Arc<str>, Fault> {
-    static MADE: PictureCache<[Picture], Arc<str>> = PictureCache::new();
-    MADE.get(expected, part, factor, || Ok(inline(&reduced_sheet(expected, part, factor)?.encode_hardest()?).into()))
+    static MADE: PictureCache<[Picture], (Area, usize), Arc<str>> = PictureCache::new();
+    MADE.get(expected, (part, factor), || Ok(inline(&reduced_sheet(expected, part, factor)?.encode_hardest()?).into()))
 }
 
 /// The part of all pictures that a page shows, the rest of which is background: where a right answer draws, for most others draw
@@ -165,8 +165,8 @@ fn part(yours: &[Picture], expected: &[Picture]) -> Area {
 
 /// The least reduction at which the right pictures take their share of a page.
 fn finest(expected: &Arc<[Picture]>) -> Result<usize, Fault> {
-    static FOUND: PictureCache<[Picture], usize> = PictureCache::new();
-    FOUND.get(expected, Area::default(), 0, || {
+    static FOUND: PictureCache<[Picture], (), usize> = PictureCache::new();
+    FOUND.get(expected, (), || {
         for factor in REDUCTIONS {
             let sheet = reduced_sheet(expected, part(expected, expected), factor)?;
             if embedded_length(&sheet.encode()?) <= BUDGET_OF_EXPECTED {
