@@ -22,7 +22,7 @@ const STRIDE: usize = 7;
 
 /// What is added to a value to see what becomes of it, in red, green and blue: other than any constant of a homework, and
 /// different so that no channel passes for another.
-pub(super) const ADDED: [f64; 3] = [0.173, 0.139, 0.111];
+const ADDED: [f64; 3] = [0.173, 0.139, 0.111];
 
 /// A value beyond this counts as 0, as what is not finite does: such a term costs the others nothing. Those of a right answer
 /// stay below 100.
@@ -161,13 +161,7 @@ impl<'a> TextEvaluation<'a> {
 
     /// Something is added to an event.
     fn raised(&self, event: usize) -> StageChanges {
-        let mut values = self.trace.events[event].values.clone();
-        for (column, added) in values.iter_mut().zip(ADDED) {
-            column.iter_mut().for_each(|x| *x += added);
-        }
-        let mut changes = StageChanges::default();
-        changes[self.stage as usize].push(change(&self.trace, event, &values));
-        changes
+        raised(self.stage, &self.trace, event)
     }
 
     /// Whether the colour moves as a right answer's does when something is added to an event.
@@ -202,6 +196,17 @@ impl<'a> TextEvaluation<'a> {
         let beside: Vec<usize> = others.filter(|(_, pair)| is_beside(*pair)).map(|(at, _)| at).collect();
         beside.into_iter().take(MOST_CANDIDATES).any(|other| self.moves(other, wanted))
     }
+}
+
+/// Something is added to an event.
+pub(super) fn raised(stage: Stage, trace: &Trace, event: usize) -> StageChanges {
+    let mut values = trace.events[event].values.clone();
+    for (column, added) in values.iter_mut().zip(ADDED) {
+        column.iter_mut().for_each(|x| *x += added);
+    }
+    let mut changes = StageChanges::default();
+    changes[stage as usize].push(change(trace, event, &values));
+    changes
 }
 
 /// Whether an event is this colour wherever the program runs, alpha aside.

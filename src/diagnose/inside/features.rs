@@ -3,11 +3,11 @@
 use super::quantities::{at_last_corner, made_of};
 use super::search::Search;
 use super::{FUEL_OF_TRACE, Stage};
-use crate::diagnose::addends::{ADDED, passes};
+use crate::diagnose::addends::{passes, raised};
 use crate::diagnose::columns::{ScalarColumns, is_constant, is_number, is_same};
 use crate::diagnose::trials::StageChanges;
 use glam::DVec3;
-use reference::interpreter::trace::{Event, Trace, ValueChange};
+use reference::interpreter::trace::{Event, Trace};
 use reference::traced::{Bench, Seen, TracedProgram};
 
 /// What a line judges.
@@ -65,10 +65,10 @@ impl Search<'_, '_> {
         let mut bench = Bench::new(self.assignment, program, self.places, self.in_quads, FUEL_OF_TRACE)?;
         let (before, traces) = bench.trace(&StageChanges::default())?;
         let trace = traces[*stage as usize].as_ref()?;
-        let mut events = trace.events.iter().filter(|event| event.site == *site);
-        let (event, None) = (events.next()?.clone(), events.next()) else { return None };
-        let after = bench.with(&raised(*stage, &event))?;
-        Some((event, moved(&before, &after)))
+        let mut events = (0..trace.events.len()).filter(|at| trace.events[*at].site == *site);
+        let (at, None) = (events.next()?, events.next()) else { return None };
+        let after = bench.with(&raised(*stage, trace, at))?;
+        Some((trace.events[at].clone(), moved(&before, &after)))
     }
 
     /// Where the text computes the value.
@@ -99,19 +99,8 @@ impl Search<'_, '_> {
         let event = &trace.events[at];
         let is_only = trace.events.iter().filter(|other| other.site == event.site).count() == 1;
         let mut bench = Bench::new(self.assignment, self.theirs, self.places, self.in_quads, FUEL_OF_TRACE)?;
-        if is_only { bench.with(&raised(stage, event)) } else { None }
+        if is_only { bench.with(&raised(stage, trace, at)) } else { None }
     }
-}
-
-/// Something is added to an event.
-fn raised(stage: Stage, event: &Event) -> StageChanges {
-    let mut values = event.values.clone();
-    for (column, added) in values.iter_mut().zip(ADDED) {
-        column.iter_mut().for_each(|x| *x += added);
-    }
-    let mut changes = StageChanges::default();
-    changes[stage as usize].push(ValueChange { site: event.site, values: vec![values] });
-    changes
 }
 
 fn moved(before: &Seen, after: &Seen) -> Vec<DVec3> {
