@@ -29,7 +29,6 @@ pub(super) use given::ignores_all;
 use glam::DVec3;
 pub(super) use own_values::own_values;
 use quantities::Quantities;
-pub(super) use quantities::made_of;
 use reference::Assignment;
 use reference::interpreter::trace::{Site, Trace, What};
 use reference::interpreter::{Binary, Stage};
@@ -37,6 +36,7 @@ use reference::mistake::FoundMistake;
 use reference::traced::{Bench, Place, Seen, TracedProgram};
 pub(super) use repair::Repaired;
 use search::{Search, is_right};
+pub(super) use walk::made_of;
 
 /// Where a mistake stands.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,6 +1,6 @@
 //! Where an answer decides between two things that it should go over gradually.
 
-use super::quantities::made_of;
+use super::walk::{made_of, roots};
 use super::{Place, variable};
 use crate::diagnose::Evidence;
 use crate::diagnose::columns::is_number;
@@ -21,14 +21,13 @@ pub(in crate::diagnose) fn decision(evidence: &Evidence<'_>) -> Option<Located> 
     let (_, mut traces) = bench.trace(&StageChanges::default())?;
     let trace = traces[Stage::Fragment as usize].take()?;
     let sites = theirs.stage(Stage::Fragment).sites();
-    let outputs: Vec<usize> = trace.outputs.iter().flatten().copied().collect();
     let changes_at_once = |event: &Event| {
         let each = event.lanes.len() / places.len().max(1);
         let Some(column) = event.values.first().filter(|_| each > 0) else { return false };
         let shades: Vec<[f64; 3]> = column.iter().step_by(each).map(|value| [*value; 3]).collect();
         crossings.course(&shades) == Some(EdgeDefect::Abrupt)
     };
-    let way = made_of(&trace, &outputs);
+    let way = made_of(&trace, &roots(&trace));
     let is_computed = |event: &&Event| !matches!(sites[event.site].what, What::Read(_));
     let mut events = way.iter().rev().map(|number| &trace.events[*number]).filter(is_computed);
     let last = events.find(|event| is_one_of_two(event) && changes_at_once(event))?;

@@ -1,7 +1,8 @@
 //! The lines of the rubric whose value the text computes right.
 
-use super::quantities::{at_last_corner, made_of};
+use super::quantities::at_last_corner;
 use super::search::Search;
+use super::walk::{made_of, roots};
 use super::{FUEL_OF_TRACE, Stage};
 use crate::diagnose::addends::{passes, raised};
 use crate::diagnose::columns::{ScalarColumns, is_constant, is_number, is_same};
@@ -77,10 +78,9 @@ impl Search<'_, '_> {
         let mut found = Vec::new();
         for stage in [Stage::Vertex, Stage::Fragment] {
             let Some(trace) = self.trace(stage) else { continue };
-            let roots: Vec<usize> = trace.outputs.iter().flatten().copied().collect();
             let alike = std::iter::once(feature).chain(handed_over.as_ref().filter(|_| stage == Stage::Fragment));
             let is_one = |at: &usize| alike.clone().any(|feature| is_it(&trace.events[*at], feature));
-            found.extend(made_of(trace, &roots).into_iter().filter(is_one).map(|at| (stage, at)));
+            found.extend(made_of(trace, &roots(trace)).into_iter().filter(is_one).map(|at| (stage, at)));
         }
         found
     }

@@ -1,7 +1,7 @@
 //! What a text is given, and whether its colour has anything of it.
 
 use super::Stage;
-use super::quantities::made_of;
+use super::walk::{made_of, roots};
 use crate::diagnose::Evidence;
 use crate::diagnose::columns::is_constant;
 use crate::diagnose::trials::{FUEL_OF_TRACE, StageChanges, chosen, place};
@@ -20,8 +20,7 @@ pub(in crate::diagnose) fn ignores_all(evidence: &Evidence<'_>) -> bool {
     let Some((_, [vertex, Some(fragment)])) = traced.filter(|_| !places.is_empty()) else { return false };
     let uniforms = &evidence.assignment.interface.uniforms;
     let is_uniform = |name: &String| uniforms.iter().any(|own| own.path.split('.').next() == Some(name));
-    let roots: Vec<usize> = fragment.outputs.iter().flatten().copied().collect();
-    let read = read_on_the_way(theirs.stage(Stage::Fragment), &fragment, &roots);
+    let read = read_on_the_way(theirs.stage(Stage::Fragment), &fragment, &roots(&fragment));
     let outputs = read.varying.iter().map(|name| theirs.interpolated_from(name)).collect::<Option<Vec<usize>>>();
     let Some(outputs) = outputs.filter(|_| !read.all.iter().any(is_uniform)) else { return false };
     let Some(vertex) = vertex else { return outputs.is_empty() };

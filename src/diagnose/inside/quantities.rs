@@ -1,6 +1,7 @@
 //! What a right answer computes on its way.
 
 use super::Place;
+use super::walk::made_of;
 use crate::diagnose::columns::{ScalarColumns, is_constant, is_equal, is_same, of_places};
 use glam::DVec3;
 use reference::Assignment;
@@ -230,18 +231,6 @@ pub(super) fn at_last_corner<T: Copy>(column: &[T], lanes: usize) -> Vec<T> {
     let each = CORNERS * lanes / column.len().max(1);
     let own = column.iter().skip(CORNERS - 1).step_by(CORNERS);
     own.flat_map(|value| std::iter::repeat_n(*value, each)).collect()
-}
-
-/// The events that some events are computed from, and they themselves.
-pub(in crate::diagnose) fn made_of(trace: &Trace, events: &[usize]) -> BTreeSet<usize> {
-    let mut found = BTreeSet::new();
-    let mut open = events.to_vec();
-    while let Some(event) = open.pop() {
-        if found.insert(event) {
-            open.extend(&trace.events[event].from);
-        }
-    }
-    found
 }
 
 fn name(program: &Program, event: &Event) -> Option<String> {

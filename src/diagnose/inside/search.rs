@@ -1,7 +1,7 @@
 //! Which value has to be another one for all that is seen to be right.
 
-use super::quantities::{Quantity, made_of};
-use super::walk::{Suspect, suspects};
+use super::quantities::Quantity;
+use super::walk::{Suspect, made_of, roots, suspects};
 use super::*;
 use crate::diagnose::columns::{ScalarColumns, fits, is_constant, is_number, is_same, shaped};
 use crate::diagnose::trials::{StageChanges, Trials};
@@ -82,8 +82,7 @@ impl Search<'_, '_> {
         const STAGES: [Stage; 2] = [Stage::Vertex, Stage::Fragment];
         let is_computed_in = |stage: Stage, of: Stage| {
             let Some(trace) = self.trace(stage) else { return false };
-            let roots: Vec<usize> = trace.outputs.iter().flatten().copied().collect();
-            let mut way = made_of(trace, &roots).into_iter();
+            let mut way = made_of(trace, &roots(trace)).into_iter();
             let is_it = |own: &Quantity| own.computed_in == of && is_it(own);
             way.any(|event| self.quantities.equal_to(stage, &trace.events[event]).is_some_and(is_it))
         };
@@ -96,8 +95,7 @@ impl Search<'_, '_> {
     pub fn suspects(&self, stage: Stage) -> Vec<Suspect> {
         let Some(trace) = self.trace(stage) else { return Vec::new() };
         let program = self.theirs.stage(stage);
-        let roots: Vec<usize> = trace.outputs.iter().flatten().copied().collect();
-        suspects(stage, program, trace, self.quantities, &roots)
+        suspects(stage, program, trace, self.quantities, &roots(trace))
     }
 
     /// The first place that mends everything by itself, other than one site.

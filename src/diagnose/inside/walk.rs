@@ -90,3 +90,20 @@ fn changes_nothing(program: &Program, trace: &Trace, event: usize) -> bool {
         _ => false,
     }
 }
+
+/// The events that give the outputs their values.
+pub(super) fn roots(trace: &Trace) -> Vec<usize> {
+    trace.outputs.iter().flatten().copied().collect()
+}
+
+/// The events that some events are computed from, and they themselves.
+pub(in crate::diagnose) fn made_of(trace: &Trace, events: &[usize]) -> BTreeSet<usize> {
+    let mut found = BTreeSet::new();
+    let mut open = events.to_vec();
+    while let Some(event) = open.pop() {
+        if found.insert(event) {
+            open.extend(&trace.events[event].from);
+        }
+    }
+    found
+}
