@@ -8,6 +8,7 @@
 mod abrupt;
 mod additive;
 mod blame;
+mod candidates;
 mod features;
 mod finding;
 mod given;

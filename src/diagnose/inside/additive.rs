@@ -1,6 +1,7 @@
 //! Several mistakes, each in an addend of its own: what each of them changes adds up to all that is wrong.
 
-use super::search::{Mend, Search};
+use super::candidates::Mend;
+use super::search::Search;
 use super::{Stage, What};
 use crate::diagnose::columns::is_colour;
 use glam::DVec3;

@@ -1,11 +1,13 @@
 //! Whether a place that would mend everything is the one to speak of.
 
-use super::search::{Mend, ONES, Search};
+use super::candidates::Mend;
+use super::search::{ONES, Search};
 use super::{Binary, Stage, Trace, What};
 use crate::diagnose::columns::{is_colour, is_constant, is_equal, is_same};
 use glam::DVec3;
 use reference::interpreter::Scalar;
-use reference::interpreter::trace::Event;
+use reference::interpreter::trace::{Event, Site};
+use std::collections::BTreeSet;
 
 impl Search<'_, '_> {
     /// Whether a place is the one to speak of, should this mend all. A value that is right by itself is only wrong where it is
@@ -51,6 +53,54 @@ impl Search<'_, '_> {
         right.names.is_empty()
             || self.quantities.finishes(quantity, right)
             || name.is_some() && self.is_computed_twice(mend, trace)
+    }
+
+    /// What a place is computed from in its statement, and the arguments that come to it; none of a condition.
+    pub(super) fn operands(&self, mend: &Mend) -> Option<BTreeSet<usize>> {
+        let trace = self.trace(mend.stage)?;
+        let sites = self.theirs.stage(mend.stage).sites();
+        let is_bool = |event: usize| sites[trace.events[event].site].kind.scalar() == Some(Scalar::Bool);
+        let mut found = BTreeSet::new();
+        let mut open = mend.suspect.events.clone();
+        while let Some(event) = open.pop() {
+            if is_bool(event) || !found.insert(event) {
+                continue;
+            }
+            let is_end = |from: &&usize| !matches!(sites[trace.events[**from].site].what, What::Assign { .. });
+            open.extend(trace.events[event].from.iter().filter(is_end));
+        }
+        Some(found)
+    }
+
+    /// Whether the mistake stands there, and not only what is seen of it.
+    pub fn is_telling(&self, mend: &Mend) -> bool {
+        !self.is_whole(mend) || self.missing_in(mend).is_some() || self.is_settled(mend) || self.is_own_statement(mend)
+    }
+
+    /// Whether the statement itself is to blame: all variables that it reads have right values.
+    fn is_own_statement(&self, mend: &Mend) -> bool {
+        let (Some(near), Some(trace)) = (self.operands(mend), self.trace(mend.stage)) else { return false };
+        let sites = self.theirs.stage(mend.stage).sites();
+        let mut reads = near.iter().map(|event| &trace.events[*event]);
+        reads.all(|event| {
+            !matches!(sites[event.site].what, What::Read(_))
+                || is_constant(&event.values)
+                || self.quantities.equal_to(mend.stage, event).is_some()
+        })
+    }
+
+    /// Whether a variable only begins there, with a number, and is given other values further on.
+    pub fn is_start(&self, mend: &Mend) -> bool {
+        let sites = self.theirs.stage(mend.stage).sites();
+        let (What::Assign { name, .. }, Some(near)) = (&sites[mend.suspect.site].what, self.operands(mend)) else {
+            return false;
+        };
+        let is_other = |(at, site): (usize, &Site)| {
+            at > mend.suspect.site && matches!(&site.what, What::Assign { name: own, .. } if own == name)
+        };
+        let Some(trace) = self.trace(mend.stage) else { return false };
+        let mut reads = near.iter().map(|event| &sites[trace.events[*event].site].what);
+        !reads.any(|what| matches!(what, What::Read(_))) && sites.iter().enumerate().any(is_other)
     }
 
     /// Whether all that a place is computed from is right, or the same everywhere.

@@ -1,7 +1,8 @@
 //! What is known of a place that mends everything.
 
+use super::candidates::Mend;
 use super::quantities::Quantity;
-use super::search::{Mend, Search, is_in_place};
+use super::search::{Search, is_in_place};
 use super::walk::made_of;
 use super::{Finding, Flaw, Stage, What, variable};
 use crate::diagnose::columns::{ScalarColumns, is_same};

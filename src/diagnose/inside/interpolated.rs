@@ -1,6 +1,7 @@
 //! Variables between the stages whose declaration says another way of interpolation than all would be right by.
 
-use super::search::{Mend, Search, is_right};
+use super::candidates::Mend;
+use super::search::{Search, is_right};
 use super::{Finding, Flaw, Stage, Trace, What};
 use crate::diagnose::columns::{ScalarColumns, is_same};
 use crate::diagnose::trials::FUEL_OF_TRACE;

@@ -3,7 +3,8 @@
 use super::variable;
 use crate::diagnose::columns::{ScalarColumns, fits as fits_shape, is_colour, is_number, is_same, shaped};
 use crate::diagnose::inside::Stage;
-use crate::diagnose::inside::search::{Mend, Search};
+use crate::diagnose::inside::candidates::Mend;
+use crate::diagnose::inside::search::Search;
 use crate::diagnose::inside::walk::Suspect;
 use crate::diagnose::inside::words::meaning;
 use crate::language::Text;
