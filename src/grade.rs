@@ -322,6 +322,8 @@ impl Grader {
         let mut diagnosis = diagnose::diagnose(&evidence);
         let mut own_values = None;
         if !diagnosis.is_right {
+            // What one mistake explains is no mistake in another reading.
+            let is_explained = matches!(diagnosis.explanation.as_deref(), Some([_]));
             // Advice and the explanation are about the solution, which this answer is not.
             let accepted = self.accepted.iter().filter_map(|(answer, expected)| {
                 let frames = compared(expected);
@@ -332,7 +334,8 @@ impl Grader {
                 let reading = answer.reading.as_deref();
                 let read =
                     |reading: &Reading| diagnose::diagnose(&Evidence { assignment: &reading.assignment, ..evidence });
-                let mut diagnosis = diagnose::agreement(&evidence).or_else(|| reading.map(read))?;
+                let read = || reading.filter(|_| !is_explained).map(read);
+                let mut diagnosis = diagnose::agreement(&evidence).or_else(read)?;
                 diagnosis.explanation = None;
                 diagnosis.advice.extend(reading.map(|reading| AdviceLine {
                     id: reading.id.clone(),
