@@ -224,7 +224,7 @@ impl Grading<'_> {
             return Ok(Attempted::NotDone(Ending::Garbled("frames that do not fit".into()).fault()));
         };
         let is_spent = reply.spent || worker.gradings >= self.pool.settings.gradings_per_worker;
-        if is_spent || report.verdict == Verdict::Stopped {
+        if is_spent {
             self.place.give_up(worker);
         } else {
             self.place.give_back(worker);

@@ -22,10 +22,17 @@ fn a_report_is_the_same_from_a_worker_that_has_graded_others() {
     let _alone = alone();
     let pool = Pool::start(Settings { spares: 0, ..settings() }, 1).unwrap();
     let first = timeless(grade(&pool, &honest()).unwrap());
-    for path in ["rejected/empty.vert", "rejected/brace-missing-at-end.vert"] {
-        assert_eq!(grade(&pool, &sample(path)).unwrap().report.verdict, Verdict::Rejected, "{path}");
+    let process = pool.idle_processes();
+    for (path, verdict) in [
+        ("rejected/empty.vert", Verdict::Rejected),
+        ("rejected/brace-missing-at-end.vert", Verdict::Rejected),
+        ("hostile/stopped/memory/local-array-1000000.vert", Verdict::Stopped),
+        ("hostile/stopped/loops/do-while-true.vert", Verdict::Stopped),
+    ] {
+        assert_eq!(grade(&pool, &sample(path)).unwrap().report.verdict, verdict, "{path}");
     }
     assert_eq!(timeless(grade(&pool, &honest()).unwrap()), first);
+    assert_eq!(pool.idle_processes(), process);
 }
 
 #[test]
