@@ -1,6 +1,7 @@
 //! The pipeline: the only module that knows all the stages.
 
 mod extended;
+mod judged;
 mod map_lookup;
 mod own_values;
 mod programs;
@@ -8,26 +9,26 @@ mod unfinished;
 
 pub use unfinished::{handed_out, solution, sources, unfinished};
 
+use judged::JudgedHandIn;
 use programs::Programs;
 
-use crate::compare::{self, ExpectedFrame};
+use crate::compare::ExpectedFrame;
 use crate::cross_check::{self, CrossCheck};
+use crate::diagnose::Hints;
 use crate::diagnose::advice::{self, Beyond};
-use crate::diagnose::{self, Diagnosis, Evidence, Fresh, Hints};
 use crate::diagnostic::{Diagnostic, DiagnosticStage};
 use crate::expected;
 use crate::fault::Fault;
 use crate::hand_in::HandIn;
 use crate::language::Text;
 use crate::render::{AdapterKind, Device, DrawCall, Frames, RenderScene, Renderer, Rendering, Sample};
-use crate::report::{AdviceLine, Environment, FrameResult, Report, SourceInfo, Verdict};
+use crate::report::{AdviceLine, Environment, Report, SourceInfo, Verdict};
 use crate::slots::{self, Trust};
 use crate::source::{self, ReadProgram, Source};
 use crate::translate::{self, LinkedInterface, Shader, TranslationRefusal};
 use reference::Assignment;
-use reference::accepted::{AcceptedAnswer, Reading};
+use reference::accepted::AcceptedAnswer;
 use reference::probes::{Crossings, ProbeSet};
-use reference::traced::TracedProgram;
 use serde::{Deserialize, Serialize};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::rc::Rc;
@@ -82,19 +83,6 @@ pub struct Grader {
 struct SeedScene {
     fresh: ProbeSet,
     scene: RenderScene,
-}
-
-/// What a report is made from.
-struct JudgedHandIn<'a> {
-    /// The text that messages point into.
-    source: &'a Source,
-    sources: &'a [(translate::Stage, &'a Source)],
-    /// The homework, and the probes that judge, with what the files add to it.
-    assignment: &'a Assignment,
-    probes: &'a ProbeSet,
-    fresh: &'a ProbeSet,
-    crossings: Option<&'a Crossings>,
-    rendering: &'a Rendering,
 }
 
 impl Grader {
@@ -288,109 +276,6 @@ impl Grader {
         };
         Ok(bits(&poisoned.probe_samples) != bits(&rendering.probe_samples)
             || bits(&poisoned.frame_samples) != bits(&rendering.frame_samples))
-    }
-
-    /// The report but for what was handed in.
-    fn report(&self, judged: JudgedHandIn<'_>, diagnostics: Vec<Diagnostic>, hints: Hints) -> Report {
-        let JudgedHandIn { source, sources, assignment, probes, fresh, crossings, rendering } = judged;
-        let compared = |expected: &[ExpectedFrame]| -> Vec<FrameResult> {
-            let frames = expected.iter().zip(0..);
-            frames.map(|(expected, index)| compare::frame(expected, &rendering.frames, index)).collect()
-        };
-        let mut frames = compared(&self.expected);
-        let samples: Vec<_> = rendering.probe_samples.concat();
-        let (samples, others) = samples.split_at(probes.probes.len().min(samples.len()));
-        let (fresh_samples, across) = others.split_at(fresh.probes.len().min(others.len()));
-        let texts: Vec<_> =
-            sources.iter().map(|(stage, source)| (*stage, translate::plain_lines(&source.text))).collect();
-        let texts: Vec<_> = texts.iter().map(|(stage, text)| (*stage, &**text)).collect();
-        let traced = TracedProgram::new(assignment, &texts).ok();
-        let evidence = Evidence {
-            assignment,
-            source,
-            sources,
-            frames: &frames,
-            probes,
-            samples,
-            fresh: Fresh { probes: fresh, samples: fresh_samples },
-            undefined: rendering.undefined,
-            across: crossings.map(|crossings| (crossings, across)),
-            traced: traced.as_ref(),
-            beyond: &self.beyond,
-            hints,
-        };
-        let mut diagnosis = diagnose::diagnose(&evidence);
-        let mut own_values = None;
-        if !diagnosis.is_right {
-            // What one mistake explains is no mistake in another reading.
-            let is_explained = matches!(diagnosis.explanation.as_deref(), Some([_]));
-            // Advice and the explanation are about the solution, which this answer is not.
-            let accepted = self.accepted.iter().filter_map(|(answer, expected)| {
-                let frames = compared(expected);
-                let probes = assignment.probes_of(answer, probes);
-                let of_answer = assignment.probes_of(answer, fresh);
-                let fresh = Fresh { probes: &of_answer, samples: fresh_samples };
-                let evidence = Evidence { frames: &frames, probes: &probes, fresh, beyond: &[], ..evidence };
-                let reading = answer.reading.as_deref();
-                let read =
-                    |reading: &Reading| diagnose::diagnose(&Evidence { assignment: &reading.assignment, ..evidence });
-                let read = || reading.filter(|_| !is_explained).map(read);
-                let mut diagnosis = diagnose::agreement(&evidence).or_else(read)?;
-                diagnosis.explanation = None;
-                diagnosis.advice.extend(reading.map(|reading| AdviceLine {
-                    id: reading.id.clone(),
-                    message: Text::new(&*reading.note.en, &*reading.note.ja),
-                    file: source.facts.name.clone(),
-                    line: None,
-                }));
-                Some((frames, diagnosis, (answer, expected)))
-            });
-            // The reading by which most is right, where more is right by it; of equal ones the first.
-            let found = accepted.collect::<Vec<_>>().into_iter().rev();
-            let best = found.max_by(|(_, a, _), (_, b, _)| a.points().total_cmp(&b.points()));
-            let best = best.filter(|(_, read, _)| read.is_right || read.points() > diagnosis.points());
-            let followed = |evidence: &Evidence<'_>, expected: &[ExpectedFrame], diagnosis: &Diagnosis| {
-                let is_wrong = !diagnosis.is_right;
-                is_wrong.then(|| own_values::of(evidence, expected, &rendering.frames, &diagnosis.rubric)).flatten()
-            };
-            own_values = match &best {
-                Some((frames, read, (answer, expected))) => answer.reading.as_deref().and_then(|reading| {
-                    let probes = assignment.probes_of(answer, probes);
-                    let evidence = Evidence { assignment: &reading.assignment, frames, probes: &probes, ..evidence };
-                    followed(&evidence, expected, read)
-                }),
-                None => followed(&evidence, &self.expected, &diagnosis),
-            };
-            if let Some(best) = best {
-                (frames, diagnosis, _) = best;
-            }
-        }
-        let score = diagnosis.points();
-        let max_score = self.assignment.max_score();
-        Report {
-            assignment: self.assignment.id.clone(),
-            assignment_digest: self.assignment.digest.clone(),
-            sources: Vec::new(),
-            verdict: if diagnosis.is_right { Verdict::Correct } else { Verdict::Wrong },
-            score,
-            max_score,
-            rubric: diagnosis.rubric,
-            mistakes: diagnosis.mistakes,
-            advice: diagnosis.advice,
-            repairs: diagnosis.repairs,
-            explanation: diagnosis.explanation,
-            diagnostics,
-            frames,
-            probes: diagnosis.probes,
-            map_lookup: None,
-            own_values,
-            cross_check: None,
-            environment: self.environment.clone(),
-            hints,
-            elapsed_ms: 0.0,
-            lateness: None,
-            comments: Vec::new(),
-        }
     }
 }
 

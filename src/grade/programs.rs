@@ -1,7 +1,8 @@
 //! Homework of which a fragment stage is handed in, or several files: they are linked and run as one program.
 
 use super::extended::Extended;
-use super::{Graded, Grader, JudgedHandIn, Order, map_lookup};
+use super::judged::JudgedHandIn;
+use super::{Graded, Grader, Order, map_lookup};
 use crate::cross_check;
 use crate::diagnose::UNEXPLAINED;
 use crate::diagnostic::{Diagnostic, DiagnosticStage as Speaker};
