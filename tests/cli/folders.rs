@@ -267,7 +267,7 @@ fn a_check_draws_what_lacks_something_and_names_what_is_not_translated() {
         command.args(["assignment", "check"]).arg(copy.folder()).arg("--pictures").arg(&pictures).output().unwrap();
     let said = String::from_utf8_lossy(&output.stdout);
     assert_eq!(output.status.code(), Some(0), "{said}");
-    assert!(said.contains("note rubric line `outline`, label: the same in both languages"), "{said}");
+    assert!(said.contains("note rubric `outline`, label: the same in both languages"), "{said}");
     let picture = |name: &str| fs::read(pictures.join(format!("{name}.png"))).unwrap();
     let all = ["solution", "handed-out", "without-tones", "without-outline", "tones-rounded-0"].map(picture);
     for (place, own) in all.iter().enumerate() {

@@ -200,7 +200,7 @@ fn rubric(lines: &mut [manifest::RubricLine], solution: &CheckedSolution<'_>) ->
     }
     let mut ids = HashSet::new();
     for line in lines {
-        let place = format!("rubric line `{}`", line.id);
+        let place = format!("rubric `{}`", line.id);
         let judged = match line.judges.as_str() {
             "" => solution.colour()?,
             judges => solution.definition(judges, &|| place.clone())?,

@@ -173,7 +173,7 @@ mod tests {
         assert_eq!(line_of(TEXT, "scene"), Some(2));
         assert_eq!(line_of(TEXT, "scene, `eye`"), Some(2));
         assert_eq!(line_of(TEXT, "definition `h`"), Some(12));
-        assert_eq!(line_of(TEXT, "rubric line `x`"), None);
+        assert_eq!(line_of(TEXT, "rubric `x`"), None);
     }
 
     #[test]

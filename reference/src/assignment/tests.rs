@@ -195,7 +195,7 @@ fn a_solution_is_refused_with_its_line_and_what_to_write() {
     // A program without definitions is a solution, but not one of which the rubric can name any.
     let error = |from: &str, to: &str| {
         let error = broken_in("solution.vert", from, to);
-        let named = "; rubric line `ambient`, names the definition `ambient`";
+        let named = "; rubric `ambient`, names the definition `ambient`";
         error.strip_suffix(named).map(str::to_owned).unwrap_or(error)
     };
     let half = "vec3 h = normalize(l + v);";
@@ -390,7 +390,7 @@ fn regions_and_designs_speak_of_the_solution() {
     says(
         "alone_in = [\"ambient-only\"]",
         "alone_in = [\"dusk\"]",
-        "rubric line `ambient`: there is no region `dusk`, only `facing-away`, `ambient-only`, `diffuse-only`, \
+        "rubric `ambient`: there is no region `dusk`, only `facing-away`, `ambient-only`, `diffuse-only`, \
          `highlight`, `highlight-behind`, `between`",
     );
     says("axis = \"l\"", "axis = \"nl\"", "probes: `nl` is a float, and has to be a vec3");

@@ -23,7 +23,7 @@ pub(super) fn features(
 ) -> CheckResult<Vec<Option<Feature>>> {
     let mut features = Vec::new();
     for (line, term) in m.rubric.iter().zip(terms) {
-        let place = |at: usize| format!("{}, rubric line `{}`", place_at(at), line.id);
+        let place = |at: usize| format!("{}, rubric `{}`", place_at(at), line.id);
         features.push(match &line.without {
             Some(without) => Some(Feature::Program(variants.program(without.get_ref(), &place(without.span().start))?)),
             None if m.region.is_empty() => term.clone().map(Feature::Term),

@@ -146,7 +146,7 @@ pub(super) fn regions(
                 format!("there is no region `{unknown}`, only {known}"),
                 format!("領域 `{unknown}` はありません (あるもの: {known})"),
             );
-            return Err(error(format!("rubric line `{}`", line.id), message));
+            return Err(error(format!("rubric `{}`", line.id), message));
         }
     }
     Ok(regions)

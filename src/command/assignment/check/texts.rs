@@ -12,8 +12,8 @@ pub(super) fn say(said: CheckWording, assignment: &Assignment) {
         texts.extend([("task, text".to_owned(), &task.text), ("task, picture".to_owned(), &task.picture)]);
     }
     for line in &assignment.rubric {
-        texts.push((format!("rubric line `{}`, label", line.id), &line.label));
-        texts.extend(line.right.iter().map(|right| (format!("rubric line `{}`, right", line.id), right)));
+        texts.push((format!("rubric `{}`, label", line.id), &line.label));
+        texts.extend(line.right.iter().map(|right| (format!("rubric `{}`, right", line.id), right)));
     }
     for mistake in &assignment.mistakes {
         let own = [
