@@ -1,7 +1,8 @@
 //! What a cause leaves of each line's points.
 
-use super::{CONSTANTS_CHANGED, Cause, PART_MISSING, PART_SCALED, POSITION_CHANGED, UNEXPLAINED};
+use super::{Cause, PART_MISSING, PART_SCALED, UNEXPLAINED};
 use crate::diagnose::inside::Repaired;
+use crate::diagnose::{CONSTANTS_CHANGED, POSITION_CHANGED};
 use reference::Assignment;
 use reference::assignment::RubricLine;
 use reference::derived::is_derived;

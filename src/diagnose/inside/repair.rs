@@ -5,17 +5,20 @@
 //! beforehand, names the mistake exactly. Where no change does, one that makes more right and nothing wrong is taken, and the
 //! next one is looked for in the text with it.
 
+mod repaired;
+
+pub(in crate::diagnose) use repaired::Repaired;
+
 use super::search::{Search, is_in_place, is_right};
-use super::{Evidence, Finding, Place, Seen, Stage, TracedProgram, variable};
+use super::{Finding, Place, Seen, Stage, TracedProgram, variable};
 use crate::compare::{COLOUR_TOLERANCE, POSITION_TOLERANCE};
 use crate::diagnose::columns::{is_colour, is_same};
 use crate::diagnose::locate::{Located, MistakeOrigin};
 use crate::diagnose::trials::{FUEL_OF_TRACE, StageChanges};
-use crate::{report, translate};
+use crate::translate;
 use glam::DVec3;
 use reference::interpreter::trace::{Event, Trace, What};
 use reference::interpreter::{Ingredients, Operator, Program, ProgramRepair, Repairable};
-use reference::mistake::Mistake;
 use reference::traced::Bench;
 
 /// So many changes are tried for one repair. Each is compiled, and run at the chosen probes.
@@ -29,36 +32,6 @@ const MOST_BEGINNINGS: usize = 2;
 
 /// So many changes that are right at the chosen probes are run at all of them.
 const MOST_VERIFIED: usize = 8;
-
-/// A change by which something becomes right.
-#[derive(Clone, Debug)]
-pub(in crate::diagnose) struct Repaired {
-    /// The mistake that it undoes.
-    pub mistake: Mistake,
-    /// Where it is.
-    pub located: Located,
-    /// What is written there, and what belongs there.
-    pub texts: [String; 2],
-    /// The variables of the right answer that are wrong with the mistake: the one that it is in, and those computed from it.
-    pub touches: Vec<String>,
-}
-
-impl Repaired {
-    /// Whether nothing is left of what an earlier change put there.
-    fn undoes(&self, earlier: &Self) -> bool {
-        let [before, after] = &self.texts;
-        let added = &earlier.texts[1];
-        let is_same_place = self.located.stage == earlier.located.stage && self.located.line == earlier.located.line;
-        is_same_place && !added.is_empty() && before.contains(added.as_str()) && !after.contains(added.as_str())
-    }
-
-    /// What a teacher is shown of it.
-    pub fn shown(&self, evidence: &Evidence<'_>) -> report::Repair {
-        let [written, right] = self.texts.clone();
-        let file = evidence.text(self.located.stage).0.facts.name.clone();
-        report::Repair { mistake: self.mistake.id.clone(), file, line: self.located.line, written, right }
-    }
-}
 
 /// The student's program with some changes.
 #[derive(Clone)]

@@ -1,0 +1,231 @@
+//! How a cause is found: known mistakes first, then the parts of the solution, then the text itself.
+
+use super::{Cause, HARD_CODED, NEARLY, spared, with_constants, worth};
+use crate::compare::{COLOUR_TOLERANCE, POSITION_TOLERANCE, position_difference};
+use crate::diagnose::constants::{self, ChangedConstant};
+use crate::diagnose::inside::{self, Repaired};
+use crate::diagnose::listed::Listed;
+use crate::diagnose::locate::{self, TracedProbes};
+use crate::diagnose::{Evidence, addends, hard_coded, plain, position_scale};
+use crate::render::Sample;
+use crate::report::FrameResult;
+use glam::{DVec3, DVec4};
+use reference::Assignment;
+use reference::equation::{DISCARDED, Reads};
+use reference::fit::{
+    Alternatives, Fit, MOST_MISTAKES, TermJudgement, explain_derived, explain_parts, is_right, judge_factor,
+    judge_features, judge_terms, program_of, programs_of,
+};
+use reference::mistake::FoundMistake;
+use reference::probes::ProbeSet;
+
+/// Whether a picture is off by no more than what is nearly right.
+fn is_hardly_off(frame: &FrameResult) -> bool {
+    frame.max_difference <= NEARLY * 255.0
+}
+
+/// Finds it. `shape`: whether everything stands where it should.
+pub(in crate::diagnose) fn cause(evidence: &Evidence<'_>, shape: bool) -> Cause {
+    let Evidence { assignment, probes, .. } = *evidence;
+    let samples: Vec<[f64; 3]> = evidence.samples.iter().map(Sample::colour_f64).collect();
+    let frames_agree = evidence.frames.iter().all(FrameResult::agrees);
+    let all_right = is_right(probes, &samples, COLOUR_TOLERANCE);
+    if let (true, Some(_), Some(mistake)) = (all_right, evidence.undefined, assignment.undefined_power()) {
+        let found = vec![FoundMistake { id: mistake.id.clone(), form: 0, parameter: None }];
+        return Cause::known(found);
+    }
+    let alternatives = Alternatives::new(assignment, probes);
+    let program = || program_of(&alternatives, &samples, &is_there(evidence), COLOUR_TOLERANCE);
+    if let Some(found) = (!(all_right && shape)).then(program).flatten() {
+        return Cause::known(vec![found]);
+    }
+    if all_right {
+        // Right at every probe and in place, but not in the frames: the course's own poses are treated apart.
+        return match assignment.equation.reads() {
+            _ if frames_agree || !shape => Cause::Right,
+            // What the last digits decide is not judged.
+            Reads::Attributes if hard_coded::are_at_steps(assignment, evidence.frames) => Cause::Right,
+            Reads::Attributes => Cause::HardCoded,
+            // Not all that a fragment stage reads is probed.
+            Reads::Varyings | Reads::Outputs => Cause::Unexplained { terms: Vec::new(), findings: Vec::new() },
+        };
+    }
+    let constants = constants::changed(evidence.source, assignment);
+    if let Some(found) = explained_by(&constants, evidence, &samples) {
+        return Cause::Known { constants, found, spared: Vec::new() };
+    }
+    // Numbers that a program lists are known one by one: nothing is looked up, and the course's own light hides what is wrong.
+    let is_listed = assignment.files.iter().any(|file| file.program.is_some());
+    let frames_agree = frames_agree && !is_listed;
+    let shows_a_table = !is_listed && hard_coded::is_lookup(evidence.source, probes, evidence.samples);
+    let by_term = || {
+        let terms = judge_terms(assignment, probes, &samples, COLOUR_TOLERANCE);
+        unexplained(evidence, &alternatives, &samples, terms)
+    };
+    if shows_a_table && addends::is_finite_nowhere(evidence) {
+        return by_term();
+    }
+    let is_lookup = shows_a_table && !addends::is_computed(evidence);
+    // Without the normals the course's own poses can only be right if they are treated apart.
+    let is_made_for_the_poses = || frames_agree && hard_coded::ignores_normals(probes, evidence.samples);
+    let is_nearly_right = || is_right(probes, &samples, NEARLY) && evidence.frames.iter().all(is_hardly_off);
+    // Of fragments there are no twins with one number: the text says whether anything is computed.
+    let is_made_of_nothing = || {
+        let is_known = assignment.mistake(HARD_CODED).is_some() && assignment.equation.reads() == Reads::Outputs;
+        is_known && !is_dark(evidence.samples) && inside::ignores_all(evidence)
+    };
+    match plain::explained(assignment, evidence.source, probes, &samples, COLOUR_TOLERANCE) {
+        // What computes a right term has it multiplied by 0, or left out.
+        Fit::Explained(found)
+            if shows_a_table
+                && hard_coded::is_coincidence(assignment, probes, evidence.samples, &found)
+                && !addends::computes_a_term(evidence) =>
+        {
+            if is_lookup {
+                Cause::HardCoded
+            } else {
+                by_term()
+            }
+        }
+        // The course's own poses are treated apart from what explains all others.
+        Fit::Explained(found) if frames_agree && hard_coded::leaves_nothing(assignment, &found) => Cause::HardCoded,
+        // Some mistakes together come near to nearly anything.
+        Fit::Explained(found) if found.len() > 1 && is_nearly_right() => Cause::NearlyRight,
+        Fit::Explained(found) if found.len() == MOST_MISTAKES && !is_borne_out(evidence, &found) => by_term(),
+        Fit::Explained(found) if is_dark(evidence.samples) && stands_elsewhere(evidence, &found) => by_term(),
+        Fit::Explained(found) => Cause::known(found),
+        Fit::Unexplained(_) if is_lookup || is_made_for_the_poses() => Cause::HardCoded,
+        Fit::Unexplained(_) if is_made_of_nothing() => Cause::HardCoded,
+        Fit::Unexplained(_) if is_nearly_right() => Cause::NearlyRight,
+        Fit::Unexplained(terms) => unexplained(evidence, &alternatives, &samples, terms),
+    }
+}
+
+/// What no known mistake explains: by the features, or else each term as far as it stands alone, or shows by itself.
+fn unexplained(
+    evidence: &Evidence<'_>,
+    alternatives: &Alternatives<'_>,
+    samples: &[[f64; 3]],
+    mut terms: Vec<TermJudgement>,
+) -> Cause {
+    let Evidence { assignment, probes, .. } = *evidence;
+    if let Some(listed) = Listed::of(evidence) {
+        return Cause::Unexplained { terms: listed.terms(evidence), findings: Vec::new() };
+    }
+    let parts = explain_parts(alternatives, samples, &is_there(evidence), COLOUR_TOLERANCE);
+    match parts {
+        Some(parts) if parts.found.is_empty() && parts.is_missing() => return Cause::Parts(parts),
+        parts => {
+            // What a lecturer wrote down says more than that a feature is missing.
+            let numbers = evidence.numbers();
+            if let Some(found) = programs_of(alternatives, samples, &numbers, &is_there(evidence), COLOUR_TOLERANCE) {
+                return Cause::known(found);
+            }
+            if let Some(parts) = parts {
+                return Cause::Parts(parts);
+            }
+        }
+    }
+    // What the text itself becomes right by says more than a change of the solution that the text does not bear out.
+    let doubtful = match (!is_dark(evidence.samples)).then(|| derived(evidence, samples)).flatten() {
+        Some(cause) if !cause.is_contradicted(evidence) => return cause,
+        doubtful => doubtful,
+    };
+    let (findings, repairs) = inside::account(evidence);
+    let terms = match judge_factor(assignment, probes, samples, COLOUR_TOLERANCE) {
+        Some(terms) => terms,
+        None => {
+            for feature in judge_features(alternatives, samples, COLOUR_TOLERANCE) {
+                terms.retain(|term| term.line != feature.line);
+                terms.push(feature);
+            }
+            spared::beside(evidence, addends::credit(evidence, terms), &findings)
+        }
+    };
+    let wrong = if repairs.is_empty() { terms.clone() } else { spared::computed(evidence, terms.clone()) };
+    let repairs = repairs.into_iter().map(|repaired| (worth::charged(assignment, &wrong, &repaired), repaired));
+    let repairs: Vec<(Vec<String>, Repaired)> = repairs.collect();
+    if repairs.is_empty() || repairs.iter().any(|(lines, _)| lines.is_empty()) {
+        return doubtful.unwrap_or(Cause::Unexplained { terms, findings });
+    }
+    Cause::Repaired(repairs)
+}
+
+/// The derived mistakes that explain the samples, also those that nobody knows beforehand; perhaps on top of changed constants.
+fn derived(evidence: &Evidence<'_>, samples: &[[f64; 3]]) -> Option<Cause> {
+    let constants = constants::changed(evidence.source, evidence.assignment);
+    let explained = |assignment: &Assignment, probes: &ProbeSet, constants: Vec<ChangedConstant>| {
+        let found = explain_derived(assignment, probes, samples, &is_there(evidence), COLOUR_TOLERANCE)?;
+        let is_borne_out = plain::is_borne_out(assignment, evidence.source, &found);
+        let spared = spared::by_text(evidence, &found);
+        let cause = Cause::Known { constants, found, spared };
+        (is_borne_out && !cause.is_refuted(evidence)).then_some(cause)
+    };
+    if let Some(changed) = with_constants(evidence.assignment, &constants).filter(|_| !constants.is_empty()) {
+        let cause = explained(&changed, &changed.reprobe(evidence.probes), constants);
+        if cause.is_some() {
+            return cause;
+        }
+    }
+    explained(evidence.assignment, evidence.probes, Vec::new())
+}
+
+/// Whether a sample has a given position, but for the factor that all have in common where they are right.
+fn is_there<'e>(evidence: &'e Evidence<'_>) -> impl Fn(usize, DVec4) -> bool + 'e {
+    let scale = position_scale(evidence);
+    move |place, position| {
+        let sample = evidence.samples.get(place);
+        let is_at = |scale| sample.is_some_and(|s| position_difference(position, s, scale) <= POSITION_TOLERANCE);
+        is_at(1.0) || is_at(scale)
+    }
+}
+
+/// Whether the text has a place for each of these mistakes, another one for those that touch the same lines of the rubric. So
+/// many mistakes together explain much by chance.
+fn is_borne_out(evidence: &Evidence<'_>, found: &[FoundMistake]) -> bool {
+    let assignment = evidence.assignment;
+    let mut points = TracedProbes::new(evidence, assignment);
+    if points.is_none() {
+        return true;
+    }
+    let mut line = |index: usize| Some(locate::mistake(evidence, assignment, &mut points, found, index, None)?.line);
+    let places: Vec<_> = (0..found.len()).map(&mut line).collect();
+    let clash = |a: usize, b: usize| assignment.share_a_line(&found[a], &found[b]) && places[a] == places[b];
+    places.iter().all(Option::is_some) && !(0..found.len()).any(|b| (0..b).any(|a| clash(a, b)))
+}
+
+/// Whether all that is drawn is black, or no number: then the colours say little of the cause.
+fn is_dark(samples: &[Sample]) -> bool {
+    let is_drawn = |colour: &[f64; 3]| DVec3::from(*colour) != DISCARDED;
+    let mut drawn = samples.iter().map(Sample::colour_f64).filter(is_drawn).peekable();
+    drawn.peek().is_some() && drawn.flatten().all(|channel| channel == 0.0 || channel.is_nan())
+}
+
+/// Whether the places at which all is mended serve definitions that have nothing of what the mistakes have wrong.
+fn stands_elsewhere(evidence: &Evidence<'_>, found: &[FoundMistake]) -> bool {
+    let Evidence { assignment: Assignment { equation, .. }, .. } = *evidence;
+    let forms = found.iter().filter_map(|found| evidence.assignment.mistake(&found.id)?.forms.get(found.form));
+    let wrong: Vec<usize> = forms.flat_map(|form| &form.overrides).map(|changed| changed.definition).collect();
+    let place = |name: String| equation.definitions().iter().position(|known| known.name == name);
+    let places: Vec<usize> =
+        inside::find(evidence).into_iter().filter_map(|finding| finding.serves).filter_map(place).collect();
+    let is_apart = |place: &usize| !wrong.iter().any(|wrong| equation.depends(*place, *wrong));
+    !places.is_empty() && places.iter().all(is_apart)
+}
+
+/// The mistakes that explain the samples when the equation has the student's own constants.
+fn explained_by(
+    constants: &[ChangedConstant],
+    evidence: &Evidence<'_>,
+    samples: &[[f64; 3]],
+) -> Option<Vec<FoundMistake>> {
+    if constants.is_empty() {
+        return None;
+    }
+    let changed = with_constants(evidence.assignment, constants)?;
+    let probes = changed.reprobe(evidence.probes);
+    match plain::explained(&changed, evidence.source, &probes, samples, COLOUR_TOLERANCE) {
+        Fit::Explained(found) => Some(found),
+        Fit::Unexplained(_) => None,
+    }
+}
