@@ -1,14 +1,16 @@
 //! The solution: what is right, as a shader computes it, and what `assignment.toml` says of its names.
 
+mod equation;
+mod expressions;
+
 use super::{CheckResult, listed};
 use crate::Text;
-use crate::assignment::{AssignmentError, Constant, HandedIn, Interface, Output, error};
-use crate::equation::{Definition, Equation, MAX_INPUTS, Reads};
-use crate::interpreter::{Cell, Draft, Formula, Refusal, Stage, StoredOutput, Texture, Type};
-use crate::manifest::{self, Manifest};
+use crate::assignment::{AssignmentError, HandedIn, Output, error};
+use crate::equation::Reads;
+use crate::interpreter::{Cell, Draft, Formula, Refusal, Stage, StoredOutput, Type};
+use crate::manifest;
 use crate::pipeline::Pipeline;
 use crate::text::both;
-use std::sync::Arc;
 
 /// Definitions are held as the bits of a u64.
 const MAX_DEFINITIONS: usize = 64;
@@ -189,141 +191,9 @@ impl<'a> CheckedSolution<'a> {
         (found == kind).then_some(definition).ok_or_else(other)
     }
 
-    /// A condition on the definitions.
-    pub(super) fn condition(&mut self, text: &str, place: &dyn Fn() -> String) -> CheckResult<Formula> {
-        self.draft.condition(text).map_err(|refusal| {
-            let known =
-                listed(self.draft.cells().iter().map(|cell| cell.name.as_str()).filter(|name| !name.is_empty()));
-            let Text { en, ja } = refusal.what();
-            let message = both(
-                format!("{en}: write an expression of type bool with {known}"),
-                format!("{ja}。{known} を使った bool 型の式を書いてください"),
-            );
-            error(place(), message)
-        })
-    }
-
-    /// A name for what is free in a mistake's forms.
-    pub(super) fn parameter(&self, name: &str, place: &str) -> CheckResult<()> {
-        let taken = || {
-            error(
-                place,
-                both(
-                    format!("`{name}` is taken, means something in GLSL, or is not a name"),
-                    format!("`{name}` は、すでに使われているか、GLSL で意味を持つか、名前として使えません"),
-                ),
-            )
-        };
-        self.draft.is_free(name).then_some(()).ok_or_else(taken)
-    }
-
-    /// An expression in place of a definition, and whether what is free occurs in it.
-    pub(super) fn replacement(
-        &mut self,
-        definition: usize,
-        text: &str,
-        free: Option<&str>,
-        place: &dyn Fn() -> String,
-    ) -> CheckResult<(Formula, bool)> {
-        let cell = self.first + definition;
-        let allowed = |solution: &Self| {
-            let names = solution.draft.cells()[..cell].iter().map(|cell| cell.name.as_str());
-            listed(names.chain(free))
-        };
-        let formula = self.draft.replacement(cell, text, free).map_err(|refusal| {
-            let kind = &self.draft.cells()[cell].kind;
-            let (Text { en, ja }, allowed) = (refusal.what(), allowed(self));
-            let message = both(
-                format!("{en}: write an expression of type {kind} with {allowed}"),
-                format!("{ja}。{allowed} を使った {kind} 型の式を書いてください"),
-            );
-            error(place(), message)
-        })?;
-        let parameter = self.draft.cells().len() - 1;
-        if let Some(used) = formula.uses().iter().find(|used| **used >= cell && **used != parameter) {
-            let used = &self.draft.cells()[*used].name;
-            return Err(error(
-                place(),
-                both(
-                    format!("uses `{used}`, which is defined later: use only {}", allowed(self)),
-                    format!("後で定義される `{used}` を使っています。使えるのは {} です", allowed(self)),
-                ),
-            ));
-        }
-        self.few_enough(&formula, place)?;
-        let is_free = formula.uses().contains(&parameter);
-        Ok((formula, is_free))
-    }
-
-    /// A search keeps what a definition uses in a few places.
-    fn few_enough(&self, formula: &Formula, place: &dyn Fn() -> String) -> CheckResult<()> {
-        let used = formula.uses().iter().filter(|cell| **cell >= self.first);
-        if used.count() > MAX_INPUTS {
-            let message = both(
-                format!("uses more than {MAX_INPUTS} definitions: name a part of it first"),
-                format!("使っている定義が {MAX_INPUTS} 個を超えています。先に一部に名前を付けてください"),
-            );
-            return Err(error(place(), message));
-        }
-        Ok(())
-    }
-
     /// What the handed-in stages write beside `gl_Position`.
     pub(super) fn outputs(&self) -> Vec<Output> {
         self.outputs.clone()
-    }
-
-    /// The equation that the solution is, with what the lecture calls its definitions.
-    pub(super) fn finish(
-        self,
-        m: &Manifest,
-        interface: &Interface,
-        pipeline: &Pipeline,
-        constants: &[Constant],
-        textures: Arc<[Texture]>,
-    ) -> CheckResult<Equation> {
-        for name in m.definition.keys() {
-            self.definition(name, &|| format!("definition `{name}`"))?;
-        }
-        let colour = self.output(None)?;
-        let has_position = self.draft.stored().iter().any(|stored| stored.output == POSITION);
-        let position = has_position.then(|| self.output(Some(POSITION))).transpose()?;
-        let stored = self.draft.stored().iter();
-        let outputs = stored.map(|stored| (stored.output.clone(), stored.cell - self.first)).collect();
-        let cells = self.draft.cells();
-        let definition = |formula: &Formula| {
-            let Cell { name, kind, .. } = cells[formula.cell()].clone();
-            let said = m.definition.get(&name);
-            let (slide, symbol) = said.map_or((None, None), |said| (said.slide, said.symbol.clone()));
-            let means = said.and_then(|said| said.means.clone());
-            Definition { name, kind, formula: formula.clone(), slide, symbol, means }
-        };
-        let definitions: Vec<Definition> = self.draft.formulas().iter().map(definition).collect();
-        let given = |name: &str| cells[..self.first].iter().position(|cell| cell.name == *name);
-        let constants = constants.iter().map(|constant| (given(&constant.name), constant.value.clone())).collect();
-        let uniforms = interface.uniforms.iter().map(|uniform| given(&uniform.path)).collect();
-        let attributes = match self.reads {
-            Reads::Attributes => interface.inputs.iter().map(|input| given(&input.name)).collect(),
-            Reads::Varyings => pipeline.fragment.inputs().iter().map(|input| given(&input.name)).collect(),
-            Reads::Outputs => [SHOWN_COLOUR, SHOWN_POSITION].into_iter().map(given).collect(),
-        };
-        let (name, reads) = (&self.file.solution.name, self.reads);
-        let sheet = self.draft.finish(textures).map_err(|refusal| refused(name, &refusal))?;
-        let sheet = Arc::new(sheet);
-        let numbers = definitions.iter().filter_map(|definition| definition.kind.slots()).sum();
-        Ok(Equation {
-            reads,
-            sheet,
-            constants,
-            uniforms,
-            attributes,
-            first: self.first,
-            definitions,
-            numbers,
-            colour,
-            position,
-            outputs,
-        })
     }
 
     /// Whether a definition is the position in clip space.
