@@ -2,18 +2,20 @@
 
 mod check;
 mod error;
+mod interface;
+mod mistakes;
 
 use crate::accepted::{AcceptedAnswer, Reading};
 use crate::advice::Advice;
-use crate::derived::{Derived, is_derived};
-use crate::equation::{Equation, EquationVariant, Reads};
+use crate::derived::Derived;
+use crate::equation::{Equation, Reads};
 use crate::feature::Feature;
 pub use crate::feed::{Attribute, Bounds, Feed, Role, Stream};
 use crate::free::Free;
 use crate::host::HostArray;
-use crate::interpreter::{Texture, Type};
+use crate::interpreter::Texture;
 pub use crate::manifest::{RubricLine, Stage, Task};
-use crate::mistake::{FoundMistake, Mistake, MistakeForm};
+use crate::mistake::{Mistake, MistakeForm};
 use crate::pipeline::Pipeline;
 use crate::probes::{Probing, Region};
 use crate::scene::{Moment, Scene, Vertex};
@@ -22,6 +24,7 @@ use crate::typeset::Typeset;
 use crate::{Folder, Text, Value, manifest};
 pub use error::AssignmentError;
 pub(crate) use error::error;
+pub use interface::{Input, Interface, Output, Uniform};
 use std::sync::{Arc, OnceLock};
 
 /// A homework as data.
@@ -150,65 +153,6 @@ pub struct Solution {
     pub text: String,
 }
 
-/// What the handed-in stage is given and what it writes, by name.
-#[derive(Clone, Debug)]
-pub struct Interface {
-    /// Vertex attributes.
-    pub inputs: Vec<Input>,
-    /// Uniforms: scalars, vectors, matrices and samplers, each by its path.
-    pub uniforms: Vec<Uniform>,
-    /// Outputs, `gl_Position` aside.
-    pub outputs: Vec<Output>,
-}
-
-/// A vertex attribute.
-#[derive(Clone, Debug)]
-pub struct Input {
-    /// Its name in the shader.
-    pub name: String,
-    /// Its type.
-    pub kind: Type,
-    /// Where its values come from.
-    pub stream: Stream,
-}
-
-/// A uniform, or a part of one.
-#[derive(Clone, Debug)]
-pub struct Uniform {
-    /// Its name in the shader, or the path `lights[1].colour`, `Block.member`.
-    pub path: String,
-    /// Its type.
-    pub kind: Type,
-    /// Where its value comes from.
-    pub feed: Feed,
-    /// What probes may draw at random.
-    pub probe: Option<Bounds>,
-}
-
-impl Uniform {
-    /// Its value at a moment; numbers that are none where an expression has no value.
-    pub fn value(&self, moment: &Moment) -> Value {
-        let none = || Value::of(self.kind.clone(), vec![f64::NAN; self.kind.slots().unwrap_or(0)]);
-        self.feed.value(&self.kind, moment).unwrap_or_else(none)
-    }
-
-    /// Whether it is another value in another window.
-    pub(crate) fn follows_window(&self, moment: &Moment) -> bool {
-        let [width, height] = moment.resolution;
-        let other = Moment { resolution: [2.0 * height, 3.0 * width], ..*moment };
-        matches!(self.feed, Feed::Expression(_)) && self.value(&other) != self.value(moment)
-    }
-}
-
-/// An output of the handed-in stage.
-#[derive(Clone, Debug)]
-pub struct Output {
-    /// Its name in the shader.
-    pub name: String,
-    /// Its type.
-    pub kind: Type,
-}
-
 /// A constant of the handed-out file.
 #[derive(Clone, Debug)]
 pub struct Constant {
@@ -264,55 +208,10 @@ impl Assignment {
         self.files.iter().any(|file| file.stage == stage)
     }
 
-    /// The mistake with this id.
-    pub fn mistake(&self, id: &str) -> Option<&Mistake> {
-        let own = self.mistakes.iter().find(|m| m.id == id);
-        own.or_else(|| self.deriving(id)?.assignment.mistake(id))
-    }
-
-    /// The homework with derived mistakes, where this is without them and `id` is that of one.
-    fn deriving(&self, id: &str) -> Option<&Derived> {
-        let has_some = || self.mistakes.iter().any(|mistake| is_derived(&mistake.id));
-        (is_derived(id) && !has_some()).then(|| self.derived()).filter(|derived| !derived.mistakes().is_empty())
-    }
-
-    /// Fraction of a rubric line's points that is kept by a mistake in the form in which it was found: 1 for a line that
-    /// the form does not reach, although others of the same mistake do.
-    pub fn keeps(&self, found: &FoundMistake, line: &RubricLine) -> f64 {
-        let Some(mistake) = self.mistake(&found.id) else { return 1.0 };
-        if let Some(derived) = self.deriving(&found.id) {
-            return if derived.touches(found, line) { mistake.keeps(&line.id) } else { 1.0 };
-        }
-        let reaches = mistake.forms.get(found.form).is_none_or(|form| self.reaches(form, line));
-        if reaches { mistake.keeps(&line.id) } else { 1.0 }
-    }
-
-    /// Whether two mistakes cost points of the same line.
-    pub fn share_a_line(&self, a: &FoundMistake, b: &FoundMistake) -> bool {
-        self.rubric.iter().any(|line| self.keeps(a, line) < 1.0 && self.keeps(b, line) < 1.0)
-    }
-
-    /// Whether what a form replaces shows in the term that the line judges: before it, or in what becomes of it. What is no
-    /// term of the colour is the mistake's own affair.
-    pub(crate) fn reaches(&self, form: &MistakeForm, line: &RubricLine) -> bool {
-        let equation = &self.equation;
-        let Some(judged) = equation.index(&line.judges) else { return true };
-        if !equation.depends(equation.colour, judged) {
-            return true;
-        }
-        let mut replaced = form.overrides.iter().map(|o| o.definition);
-        replaced.any(|definition| equation.depends(judged, definition) || equation.depends(definition, judged))
-    }
-
     /// Whether a line is judged by where things are drawn, not by their colour.
     pub fn judges_position(&self, line: &RubricLine) -> bool {
         let judged = self.equation.index(&line.judges);
         judged.is_some() && judged == self.equation.position
-    }
-
-    /// What it means that the colour depends on a negative number raised to a power, which GLSL leaves undefined.
-    pub fn undefined_power(&self) -> Option<&Mistake> {
-        self.mistakes.iter().find(|mistake| mistake.undefined_power)
     }
 
     /// Points of the whole rubric.
@@ -337,19 +236,6 @@ impl Assignment {
     /// The values of the vertex attributes, in the interface's order.
     pub fn attribute_values(&self, vertex: &Vertex) -> Vec<Value> {
         self.interface.inputs.iter().map(|input| input.stream.value(&input.kind, vertex)).collect()
-    }
-
-    /// The equation with these mistakes in it; `None` if one is not known or has no such form.
-    pub fn variant(&self, mistakes: &[FoundMistake]) -> Option<EquationVariant<'_>> {
-        if let Some(derived) = mistakes.iter().find_map(|found| self.deriving(&found.id)) {
-            return derived.assignment.variant(mistakes);
-        }
-        let mut variant = self.equation.right();
-        for found in mistakes {
-            let form = self.mistake(&found.id)?.forms.get(found.form)?;
-            variant = variant.with(form, found.parameter.unwrap_or(f64::NAN));
-        }
-        Some(variant)
     }
 
     /// The same assignment with other values of some constants, as a student's file may define them.

@@ -1,5 +1,6 @@
 use super::*;
 use crate::built_in::{assignment, assignments, names};
+use crate::mistake::FoundMistake;
 use std::path::Path;
 
 mod meshes;

@@ -1,0 +1,65 @@
+//! What the handed-in stages are given and what they write.
+
+use crate::Value;
+use crate::feed::{Bounds, Feed, Stream};
+use crate::interpreter::Type;
+use crate::scene::Moment;
+
+/// What the handed-in stage is given and what it writes, by name.
+#[derive(Clone, Debug)]
+pub struct Interface {
+    /// Vertex attributes.
+    pub inputs: Vec<Input>,
+    /// Uniforms: scalars, vectors, matrices and samplers, each by its path.
+    pub uniforms: Vec<Uniform>,
+    /// Outputs, `gl_Position` aside.
+    pub outputs: Vec<Output>,
+}
+
+/// A vertex attribute.
+#[derive(Clone, Debug)]
+pub struct Input {
+    /// Its name in the shader.
+    pub name: String,
+    /// Its type.
+    pub kind: Type,
+    /// Where its values come from.
+    pub stream: Stream,
+}
+
+/// A uniform, or a part of one.
+#[derive(Clone, Debug)]
+pub struct Uniform {
+    /// Its name in the shader, or the path `lights[1].colour`, `Block.member`.
+    pub path: String,
+    /// Its type.
+    pub kind: Type,
+    /// Where its value comes from.
+    pub feed: Feed,
+    /// What probes may draw at random.
+    pub probe: Option<Bounds>,
+}
+
+impl Uniform {
+    /// Its value at a moment; numbers that are none where an expression has no value.
+    pub fn value(&self, moment: &Moment) -> Value {
+        let none = || Value::of(self.kind.clone(), vec![f64::NAN; self.kind.slots().unwrap_or(0)]);
+        self.feed.value(&self.kind, moment).unwrap_or_else(none)
+    }
+
+    /// Whether it is another value in another window.
+    pub(crate) fn follows_window(&self, moment: &Moment) -> bool {
+        let [width, height] = moment.resolution;
+        let other = Moment { resolution: [2.0 * height, 3.0 * width], ..*moment };
+        matches!(self.feed, Feed::Expression(_)) && self.value(&other) != self.value(moment)
+    }
+}
+
+/// An output of the handed-in stage.
+#[derive(Clone, Debug)]
+pub struct Output {
+    /// Its name in the shader.
+    pub name: String,
+    /// Its type.
+    pub kind: Type,
+}

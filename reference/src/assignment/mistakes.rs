@@ -1,0 +1,66 @@
+//! The mistakes of an assignment: what they cost, and what an answer that has them computes.
+
+use super::{Assignment, RubricLine};
+use crate::derived::{Derived, is_derived};
+use crate::equation::EquationVariant;
+use crate::mistake::{FoundMistake, Mistake, MistakeForm};
+
+impl Assignment {
+    /// The mistake with this id.
+    pub fn mistake(&self, id: &str) -> Option<&Mistake> {
+        let own = self.mistakes.iter().find(|m| m.id == id);
+        own.or_else(|| self.deriving(id)?.assignment.mistake(id))
+    }
+
+    /// The homework with derived mistakes, where this is without them and `id` is that of one.
+    fn deriving(&self, id: &str) -> Option<&Derived> {
+        let has_some = || self.mistakes.iter().any(|mistake| is_derived(&mistake.id));
+        (is_derived(id) && !has_some()).then(|| self.derived()).filter(|derived| !derived.mistakes().is_empty())
+    }
+
+    /// Fraction of a rubric line's points that is kept by a mistake in the form in which it was found: 1 for a line that
+    /// the form does not reach, although others of the same mistake do.
+    pub fn keeps(&self, found: &FoundMistake, line: &RubricLine) -> f64 {
+        let Some(mistake) = self.mistake(&found.id) else { return 1.0 };
+        if let Some(derived) = self.deriving(&found.id) {
+            return if derived.touches(found, line) { mistake.keeps(&line.id) } else { 1.0 };
+        }
+        let reaches = mistake.forms.get(found.form).is_none_or(|form| self.reaches(form, line));
+        if reaches { mistake.keeps(&line.id) } else { 1.0 }
+    }
+
+    /// Whether two mistakes cost points of the same line.
+    pub fn share_a_line(&self, a: &FoundMistake, b: &FoundMistake) -> bool {
+        self.rubric.iter().any(|line| self.keeps(a, line) < 1.0 && self.keeps(b, line) < 1.0)
+    }
+
+    /// Whether what a form replaces shows in the term that the line judges: before it, or in what becomes of it. What is no
+    /// term of the colour is the mistake's own affair.
+    pub(crate) fn reaches(&self, form: &MistakeForm, line: &RubricLine) -> bool {
+        let equation = &self.equation;
+        let Some(judged) = equation.index(&line.judges) else { return true };
+        if !equation.depends(equation.colour, judged) {
+            return true;
+        }
+        let mut replaced = form.overrides.iter().map(|o| o.definition);
+        replaced.any(|definition| equation.depends(judged, definition) || equation.depends(definition, judged))
+    }
+
+    /// What it means that the colour depends on a negative number raised to a power, which GLSL leaves undefined.
+    pub fn undefined_power(&self) -> Option<&Mistake> {
+        self.mistakes.iter().find(|mistake| mistake.undefined_power)
+    }
+
+    /// The equation with these mistakes in it; `None` if one is not known or has no such form.
+    pub fn variant(&self, mistakes: &[FoundMistake]) -> Option<EquationVariant<'_>> {
+        if let Some(derived) = mistakes.iter().find_map(|found| self.deriving(&found.id)) {
+            return derived.assignment.variant(mistakes);
+        }
+        let mut variant = self.equation.right();
+        for found in mistakes {
+            let form = self.mistake(&found.id)?.forms.get(found.form)?;
+            variant = variant.with(form, found.parameter.unwrap_or(f64::NAN));
+        }
+        Some(variant)
+    }
+}
