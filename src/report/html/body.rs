@@ -2,6 +2,7 @@
 
 use super::listing::{self, FileListing};
 use super::map::MapView;
+use super::mark::Mark;
 use super::player::{self, FrameView, Player, Swatch, TermView};
 use super::rich::{MessagePiece, pieces};
 use super::values::ValuesView;
@@ -15,61 +16,6 @@ use crate::report::{AdviceLine, Hints, Report, RubricLine, Verdict};
 use askama::Template;
 use reference::Assignment;
 use reference::typeset::{SumPart, SymbolMeaning, Typeset};
-
-/// How much of its points a line or a whole file earned, as a teacher marks it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Mark {
-    /// All points.
-    Full,
-    /// Some.
-    Partial,
-    /// None.
-    None,
-}
-
-impl Mark {
-    /// The mark of a whole report: a file that does not run earns none.
-    pub fn of_report(report: &Report) -> Self {
-        match report.verdict {
-            Verdict::Correct => Self::Full,
-            Verdict::Wrong if report.score > 0.0 => Self::Partial,
-            Verdict::Wrong | Verdict::Rejected | Verdict::Stopped => Self::None,
-        }
-    }
-
-    fn of(points: f64, max_points: f64) -> Self {
-        match points {
-            points if points >= max_points => Self::Full,
-            points if points > 0.0 => Self::Partial,
-            _ => Self::None,
-        }
-    }
-
-    /// The name of its sign in the style sheet.
-    pub fn id(self) -> &'static str {
-        match self {
-            Self::Full => "full",
-            Self::Partial => "partial",
-            Self::None => "none",
-        }
-    }
-
-    fn sign(self) -> &'static str {
-        match self {
-            Self::Full => "○",
-            Self::Partial => "△",
-            Self::None => "×",
-        }
-    }
-
-    fn word(self, labels: &'static Labels) -> &'static str {
-        match self {
-            Self::Full => labels.full,
-            Self::Partial => labels.partial,
-            Self::None => labels.none,
-        }
-    }
-}
 
 /// One line of the rubric.
 struct HtmlRubricLine {
