@@ -6,14 +6,15 @@ mod cache;
 mod film;
 mod listing;
 mod map;
+mod mark;
 mod player;
 pub(crate) mod rich;
 mod sheet;
 mod shots;
 mod values;
 
-pub use self::body::Mark;
 pub use self::film::{Film, FilmUse, Motion, PictureAddresses, TermFilm, expected_sheet};
+pub use self::mark::Mark;
 
 use self::body::ReportBody;
 use super::{Pictures, Report};

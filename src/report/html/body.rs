@@ -260,7 +260,7 @@ impl<'a> ReportBody<'a> {
             level: part.level,
             verdict: labels.verdict(report.verdict),
             headline: labels.headline(report.verdict),
-            mark: Mark::of_report(report),
+            mark: Mark::of_verdict(report.verdict, report.score),
             is_drawn,
             has_rubric: is_drawn || report.rubric.iter().any(|line| line.graded.is_some()),
             score: number(report.score),

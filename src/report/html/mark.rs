@@ -1,7 +1,7 @@
 //! The marks that a teacher writes beside what was handed in.
 
+use crate::report::Verdict;
 use crate::report::labels::Labels;
-use crate::report::{Report, Verdict};
 
 /// How much of its points a line or a whole file earned, as a teacher marks it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -15,11 +15,11 @@ pub enum Mark {
 }
 
 impl Mark {
-    /// The mark of a whole report: a file that does not run earns none.
-    pub fn of_report(report: &Report) -> Self {
-        match report.verdict {
+    /// The mark of all that was handed in: what does not run earns none.
+    pub fn of_verdict(verdict: Verdict, score: f64) -> Self {
+        match verdict {
             Verdict::Correct => Self::Full,
-            Verdict::Wrong if report.score > 0.0 => Self::Partial,
+            Verdict::Wrong if score > 0.0 => Self::Partial,
             Verdict::Wrong | Verdict::Rejected | Verdict::Stopped => Self::None,
         }
     }

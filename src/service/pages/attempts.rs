@@ -50,7 +50,7 @@ impl Attempt {
         let can_choose = choice.may_choose && choice.counting == Counting::Chosen && !is_counted;
         Self {
             id: submission.id.clone(),
-            mark: row.verdict.map(|verdict| mark(verdict, row.score).id()),
+            mark: row.verdict.map(|verdict| Mark::of_verdict(verdict, row.score.unwrap_or(0.0)).id()),
             score: report_fragment::points(row.score),
             max_score: report_fragment::points(row.max_score),
             late: row.lateness.map(|lateness| late(frame, lateness, row.total())),
@@ -84,15 +84,6 @@ fn late(frame: &PageFrame, lateness: Lateness, total: Option<f64>) -> String {
     };
     let taken = total.map(|total| format!(": −{} → {}", number(lateness.penalty), number(total)));
     late + &taken.unwrap_or_default()
-}
-
-/// The sign of a result of which only verdict and points are known.
-pub(super) fn mark(verdict: Verdict, score: Option<f64>) -> Mark {
-    match verdict {
-        Verdict::Correct => Mark::Full,
-        Verdict::Wrong if score.unwrap_or(0.0) > 0.0 => Mark::Partial,
-        Verdict::Wrong | Verdict::Rejected | Verdict::Stopped => Mark::None,
-    }
 }
 
 /// Whether a file with this verdict has been drawn.

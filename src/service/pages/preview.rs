@@ -61,7 +61,7 @@ fn own_files(frame: &PageFrame, own: &OwnFiles) -> Vec<OwnFile> {
         let points = |points| report_fragment::points(Some(points));
         OwnFile {
             label,
-            mark: Mark::of_report(report).id(),
+            mark: Mark::of_verdict(report.verdict, report.score).id(),
             score: format!("{} / {}", points(report.score), points(report.max_score)),
             verdict: report_fragment::verdict(frame, report.verdict).to_owned(),
             href,

@@ -50,7 +50,7 @@ pub(super) fn render(
     let part = ReportFragment { assignment, report, source, gallery, language: frame.language, level, has_footer };
     let view = FragmentPage {
         label: frame.say("Result", "採点結果"),
-        mark: Mark::of_report(report),
+        mark: Mark::of_verdict(report.verdict, report.score),
         is_drawn: matches!(report.verdict, Verdict::Correct | Verdict::Wrong),
         summary: summary(frame, report),
         marks: serde_json::to_string(&marks(report)).unwrap_or_default(),

@@ -1,11 +1,12 @@
 //! The class: everyone's picture and result, filters, charts.
 
 use super::super::frame::PageFrame;
-use super::super::{attempts, internal, shown, student};
+use super::super::{internal, shown, student};
 use super::charts::{self, HEIGHT, Histogram, SPARK, SubmissionChart, Trend, WIDTH};
 use super::downloads::{DownloadOffer, formats};
 use super::table::{StudentTable, TableFilter, titled};
 use super::{Tab, word};
+use crate::report::html::Mark;
 use crate::service::State;
 use crate::service::classes::{People, Person, PersonStanding, people};
 use crate::service::courses::at;
@@ -137,7 +138,7 @@ fn tallies(frame: &PageFrame, all: &[&Person]) -> Vec<StandingCount> {
         let count = all.iter().filter(|person| person.standing() == standing).count();
         let width = 1000.0 * count as f64 / total;
         let mark = match standing {
-            PersonStanding::Graded(verdict) => Some(attempts::mark(verdict, Some(1.0)).id()),
+            PersonStanding::Graded(verdict) => Some(Mark::of_verdict(verdict, 1.0).id()),
             _ => None,
         };
         let tally = StandingCount { id: standing.id(), word: word(frame, standing), mark, count, x, width };

@@ -2,10 +2,11 @@
 
 use super::super::datetime::TimeElement;
 use super::super::frame::PageFrame;
-use super::super::{attempts, report_fragment, shown};
+use super::super::{report_fragment, shown};
 use super::Tab;
 use super::login::CsrfForm;
 use super::table::{Pager, titled};
+use crate::report::html::Mark;
 use crate::report::labels::rubric_label;
 use crate::report::text::number;
 use crate::service::State;
@@ -173,7 +174,7 @@ pub(in crate::service::pages) async fn page(
 
 fn line(frame: &PageFrame, row: &Compared) -> RegradedLine {
     let got = |(verdict, score, mistakes): &regrade::Earned| SubmissionResult {
-        mark: attempts::mark(*verdict, Some(*score)).id(),
+        mark: Mark::of_verdict(*verdict, *score).id(),
         word: report_fragment::verdict(frame, *verdict),
         score: number(*score),
         mistakes: titled(frame, mistakes),

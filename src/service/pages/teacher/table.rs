@@ -4,6 +4,7 @@ use super::super::datetime::TimeElement;
 use super::super::frame::PageFrame;
 use super::super::{attempts, report_fragment};
 use super::word;
+use crate::report::html::Mark;
 use crate::report::text::number;
 use crate::service::classes::Person;
 use percent_encoding::{NON_ALPHANUMERIC, utf8_percent_encode};
@@ -263,7 +264,7 @@ fn row(frame: &PageFrame, filter: &TableFilter, index: usize, person: &Person) -
         number: if anonymous { frame.pseudonym(index) } else { person.number.clone() },
         name: if anonymous { String::new() } else { person.name.clone() },
         portrait: portrait.map(|row| frame.picture(&row.row.submission.id, "portrait")),
-        mark: counted.and_then(|row| Some(attempts::mark(row.row.verdict?, row.row.score).id())),
+        mark: counted.and_then(|row| Some(Mark::of_verdict(row.row.verdict?, row.row.score.unwrap_or(0.0)).id())),
         word: word(frame, person.standing()),
         score: report_fragment::points(counted.and_then(|row| row.row.total())),
         taken: counted
