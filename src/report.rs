@@ -42,6 +42,13 @@ pub enum Verdict {
     Stopped,
 }
 
+impl Verdict {
+    /// Whether it ran, so that there are pictures of it.
+    pub fn is_drawn(self) -> bool {
+        matches!(self, Self::Correct | Self::Wrong)
+    }
+}
+
 /// One line of the rubric with what it earned.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RubricLine {

@@ -13,7 +13,6 @@ use crate::hand_in::HandIn;
 use crate::language::Text;
 use crate::likeness::{Comparison, Likeness, Pair};
 use crate::parallel;
-use crate::report::Verdict;
 use crate::sandbox::{GradedSubmission, GradingTask, Pool};
 use crate::source::{self, Source};
 use reference::Assignment;
@@ -151,7 +150,7 @@ impl GradingCandidate {
             return None;
         }
         let key = &self.hand_in.student.key;
-        let has_portrait = wants.portraits && matches!(report.verdict, Verdict::Correct | Verdict::Wrong);
+        let has_portrait = wants.portraits && report.verdict.is_drawn();
         let portrait = match has_portrait {
             true => Some(folder.read(&portrait_file(key)).ok().flatten()?),
             false => None,

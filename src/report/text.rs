@@ -48,7 +48,7 @@ pub fn render(report: &Report, options: &TextOptions) -> String {
         colour: options.colour,
     };
     writer.head(report);
-    if matches!(report.verdict, Verdict::Rejected | Verdict::Stopped) {
+    if !report.verdict.is_drawn() {
         writer.diagnostics(report, options.excerpts);
     } else {
         writer.rubric(options.assignment, report);

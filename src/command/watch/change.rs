@@ -2,7 +2,7 @@
 
 use crate::language::{Language, Text};
 use crate::report::labels::mistake_title;
-use crate::report::{Report, RubricLine, Verdict};
+use crate::report::{Report, RubricLine};
 use reference::Assignment;
 
 /// What is different in `after`: the score, the lines of the rubric, the mistakes.
@@ -33,7 +33,7 @@ pub(super) fn between(assignment: &Assignment, before: &Report, after: &Report) 
 }
 
 fn score(before: &Report, after: &Report) -> Text {
-    let runs = |report: &Report| matches!(report.verdict, Verdict::Correct | Verdict::Wrong);
+    let runs = |report: &Report| report.verdict.is_drawn();
     let points = format!("{} → {} / {}", number(before.score), number(after.score), number(after.max_score));
     match (runs(before), runs(after)) {
         (false, true) => Text::new(format!("It runs now: {points}"), format!("動くようになりました: {points}")),
@@ -60,7 +60,7 @@ fn number(value: f64) -> String {
 mod tests {
     use super::*;
     use crate::hand_in::HandIn;
-    use crate::report::Environment;
+    use crate::report::{Environment, Verdict};
 
     fn ggsample06() -> &'static Assignment {
         reference::assignment("ggsample06").unwrap()

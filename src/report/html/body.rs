@@ -241,7 +241,7 @@ impl<'a> ReportBody<'a> {
         let ReportFragment { report, language, .. } = *part;
         let typeset = part.assignment.typeset.as_ref();
         let labels = Labels::of(language);
-        let is_drawn = matches!(report.verdict, Verdict::Correct | Verdict::Wrong);
+        let is_drawn = report.verdict.is_drawn();
         let gallery = part.gallery.filter(|_| is_drawn);
         let rubric: Vec<HtmlRubricLine> =
             report.rubric.iter().map(|line| HtmlRubricLine::of(part.assignment, report, line, language)).collect();

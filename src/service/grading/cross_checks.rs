@@ -9,7 +9,7 @@ use crate::fault::Fault;
 use crate::grade::Order;
 use crate::hand_in::HandIn;
 use crate::language::Text;
-use crate::report::{Report, Verdict};
+use crate::report::Report;
 use crate::sandbox;
 use crate::service::store::{StoreError, Submission, Via, word};
 use crate::service::{Service, State, courses, metrics};
@@ -49,7 +49,7 @@ impl Default for CrossChecks {
 impl CrossChecks {
     /// Tells of a report that is stored.
     pub fn expect(&self, submission: &Submission, report: &Report) {
-        let is_drawn = matches!(report.verdict, Verdict::Correct | Verdict::Wrong);
+        let is_drawn = report.verdict.is_drawn();
         if is_drawn && submission.via != Via::Editor && self.sender.try_send(submission.id.clone()).is_err() {
             self.look();
         }

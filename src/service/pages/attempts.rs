@@ -66,7 +66,7 @@ impl Attempt {
                 Counting::Last | Counting::Chosen => frame.say("counts", "成績に反映"),
             }),
             can_choose: can_choose && row.score.is_some(),
-            portrait: draws(row.verdict).then(|| frame.picture(&submission.id, "portrait")),
+            portrait: row.verdict.is_some_and(Verdict::is_drawn).then(|| frame.picture(&submission.id, "portrait")),
             at: frame.moment(submission.received_at),
             mistakes: Vec::new(),
             is_disputed: false,
@@ -84,9 +84,4 @@ fn late(frame: &PageFrame, lateness: Lateness, total: Option<f64>) -> String {
     };
     let taken = total.map(|total| format!(": −{} → {}", number(lateness.penalty), number(total)));
     late + &taken.unwrap_or_default()
-}
-
-/// Whether a file with this verdict has been drawn.
-pub(super) fn draws(verdict: Option<Verdict>) -> bool {
-    matches!(verdict, Some(Verdict::Correct | Verdict::Wrong))
 }

@@ -51,7 +51,7 @@ pub(super) fn render(
     let view = FragmentPage {
         label: frame.say("Result", "採点結果"),
         mark: Mark::of_verdict(report.verdict, report.score),
-        is_drawn: matches!(report.verdict, Verdict::Correct | Verdict::Wrong),
+        is_drawn: report.verdict.is_drawn(),
         summary: summary(frame, report),
         marks: serde_json::to_string(&marks(report)).unwrap_or_default(),
         body: part.render()?,

@@ -169,7 +169,7 @@ impl Store {
         const SQL: &str = "SELECT verdict FROM reports WHERE submission_id = $1";
         let verdict: Option<String> = on!(&self.read, db => sqlx::query_scalar(SQL).bind(id).fetch_optional(db).await?);
         let verdict: Option<Verdict> = verdict.map(from_word).transpose()?;
-        Ok(verdict.is_some_and(|verdict| matches!(verdict, Verdict::Correct | Verdict::Wrong)))
+        Ok(verdict.is_some_and(Verdict::is_drawn))
     }
 
     /// What a browser has handed in for an assignment, the newest first; drafts are left out.

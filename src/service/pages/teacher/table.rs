@@ -2,8 +2,9 @@
 
 use super::super::datetime::TimeElement;
 use super::super::frame::PageFrame;
-use super::super::{attempts, report_fragment};
+use super::super::report_fragment;
 use super::word;
+use crate::report::Verdict;
 use crate::report::html::Mark;
 use crate::report::text::number;
 use crate::service::classes::Person;
@@ -256,7 +257,7 @@ fn row(frame: &PageFrame, filter: &TableFilter, index: usize, person: &Person) -
     let counted = person.counted();
     let shown = counted.or(person.rows.first());
     let anonymous = filter.is_anonymous();
-    let portrait = counted.filter(|row| attempts::draws(row.row.verdict));
+    let portrait = counted.filter(|row| row.row.verdict.is_some_and(Verdict::is_drawn));
     let key = utf8_percent_encode(&person.key, NON_ALPHANUMERIC);
     let note = person.note.as_ref().filter(|_| shown.is_none());
     StudentLine {
