@@ -5,7 +5,8 @@
 //! dates, limits, hints, the course and its link, [`roster`] the list of students, [`delete`] what goes for good, [`login`]
 //! the way in, [`live`] what arrives while somebody looks. Of all courses: [`courses`]. Of the whole course: [`plan`] its homeworks in their order, [`gradebook`] everybody with all of them, [`people`] who teaches, [`welcome`] where
 //! they choose a password, [`codes`] the students' personal codes, [`data`] what is kept of people, [`platforms`] learning
-//! platforms, [`tokens`] what programs come in by, [`folders`] the homeworks themselves, [`acts`] the log of what was done.
+//! platforms, [`tokens`] what programs come in by, [`folders`] the homeworks themselves, [`acts`] the log of what was done. Rows that are too many for one page
+//! are shown by a [`pager`].
 
 mod acts;
 mod appeals;
@@ -24,6 +25,7 @@ mod insights;
 mod likeness;
 mod live;
 pub(super) mod login;
+mod pager;
 mod people;
 mod person;
 mod plan;

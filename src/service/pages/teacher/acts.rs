@@ -6,7 +6,7 @@ use super::super::datetime::TimeElement;
 use super::super::frame::PageFrame;
 use super::super::shown;
 use super::Tab;
-use super::table::Pager;
+use super::pager::Pager;
 use crate::language::Language;
 use crate::service::Service;
 use crate::service::errors::Problem;

@@ -1,19 +1,20 @@
 //! The table of people: filtered, sorted by a column, in pages. All of it is in the address, so that it needs no script.
 
+mod column;
+
 use super::super::datetime::TimeElement;
 use super::super::frame::PageFrame;
 use super::super::report_fragment;
+use super::pager::Pager;
 use super::word;
 use crate::report::Verdict;
 use crate::report::html::Mark;
 use crate::report::text::number;
 use crate::service::classes::Person;
+use column::{SortColumn, by_number};
 use percent_encoding::{NON_ALPHANUMERIC, utf8_percent_encode};
 use serde::Deserialize;
 use std::cmp::Reverse;
-
-/// Rows of a page.
-pub(super) const PAGE: usize = 50;
 
 /// What to show, as an address says it.
 #[derive(Clone, Debug, Default, Deserialize)]
@@ -77,73 +78,6 @@ impl TableFilter {
     }
 }
 
-/// The columns that the table can be sorted by, with what stands first when one is chosen.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum SortColumn {
-    Student,
-    Verdict,
-    Score,
-    Mistakes,
-    Attempts,
-    Last,
-}
-
-impl SortColumn {
-    const ALL: [Self; 6] = [Self::Student, Self::Verdict, Self::Score, Self::Mistakes, Self::Attempts, Self::Last];
-
-    fn id(self) -> &'static str {
-        match self {
-            Self::Student => "student",
-            Self::Verdict => "verdict",
-            Self::Score => "score",
-            Self::Mistakes => "mistakes",
-            Self::Attempts => "attempts",
-            Self::Last => "last",
-        }
-    }
-
-    fn label(self, frame: &PageFrame) -> &'static str {
-        match self {
-            Self::Student => frame.say("Student", "学生"),
-            Self::Verdict => frame.say("Verdict", "判定"),
-            Self::Score => frame.say("Score", "得点"),
-            Self::Mistakes => frame.say("Mistakes", "間違い"),
-            Self::Attempts => frame.say("Attempts", "提出回数"),
-            Self::Last => frame.say("Last", "最終提出"),
-        }
-    }
-
-    /// Whether the greatest is looked for first.
-    fn falls_first(self) -> bool {
-        matches!(self, Self::Attempts | Self::Last)
-    }
-
-    fn is_number(self) -> bool {
-        matches!(self, Self::Score | Self::Attempts)
-    }
-
-    fn compare(self, a: &Person, b: &Person) -> std::cmp::Ordering {
-        let score = |person: &Person| person.counted().and_then(|row| row.row.total()).unwrap_or(-1.0);
-        // Who has none stands behind who has one.
-        let mistakes = |person: &Person| {
-            let found = person.counted().map(|row| row.mistakes.join(" ")).unwrap_or_default();
-            (found.is_empty(), found)
-        };
-        match self {
-            Self::Student => by_number(a, b),
-            Self::Verdict => a.standing().rank().cmp(&b.standing().rank()),
-            Self::Score => score(a).total_cmp(&score(b)),
-            Self::Mistakes => mistakes(a).cmp(&mistakes(b)),
-            Self::Attempts => a.rows.len().cmp(&b.rows.len()),
-            Self::Last => a.latest().cmp(&b.latest()),
-        }
-    }
-}
-
-fn by_number(a: &Person, b: &Person) -> std::cmp::Ordering {
-    (&a.number, &a.name, &a.key).cmp(&(&b.number, &b.name, &b.key))
-}
-
 /// A column's heading, which leads to the table sorted by it.
 pub(super) struct ColumnHeading {
     pub label: &'static str,
@@ -151,35 +85,6 @@ pub(super) struct ColumnHeading {
     /// For `aria-sort`, where the table is sorted by it.
     pub sorted: Option<&'static str>,
     pub is_number: bool,
-}
-
-/// One page of rows among others.
-pub(super) struct Pager {
-    /// First and last row of the page, and how many there are.
-    pub from: usize,
-    pub to: usize,
-    pub total: usize,
-    /// The pages: number, address, whether it is this one.
-    pub pages: Vec<(usize, String, bool)>,
-}
-
-impl Pager {
-    /// The page that `wished` names, from 1; the nearest where there is none.
-    pub fn new(total: usize, wished: &str, query: impl Fn(&str) -> String) -> Self {
-        let count = total.div_ceil(PAGE).max(1);
-        let page = wished.parse().unwrap_or(1).clamp(1, count);
-        let pages = (1..=count).map(|number| (number, query(&number.to_string()), number == page)).collect();
-        Self { from: (page - 1) * PAGE, to: (page * PAGE).min(total), total, pages }
-    }
-
-    /// The rows of this page.
-    pub fn of<'a, T>(&self, rows: &'a [T]) -> &'a [T] {
-        &rows[self.from..self.to]
-    }
-
-    pub fn is_one(&self) -> bool {
-        self.pages.len() == 1
-    }
 }
 
 /// The table as a page shows it.
@@ -345,14 +250,11 @@ mod tests {
     }
 
     #[test]
-    fn fifty_rows_are_a_page() {
+    fn a_page_has_its_own_rows() {
         let people: Vec<Person> = (0..120).map(|n| person(&format!("s{n:03}"), &[])).collect();
         let page = |page: &str| shown(&people, &TableFilter { page: page.into(), ..TableFilter::default() });
-        assert_eq!((page("").len(), page("3").len()), (PAGE, 20));
+        assert_eq!((page("").len(), page("3").len()), (50, 20));
         assert_eq!((page("2")[0].as_str(), page("9")[0].as_str(), page("x")[0].as_str()), ("s050", "s100", "s000"));
-        let pager = Pager::new(120, "2", |page| format!("?page={page}"));
-        assert_eq!(pager.pages[1], (2, "?page=2".to_owned(), true));
-        assert!(Pager::new(PAGE, "", |_| String::new()).is_one() && Pager::new(0, "", |_| String::new()).is_one());
     }
 
     #[test]
