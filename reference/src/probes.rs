@@ -5,23 +5,25 @@
 //! space.
 
 mod design;
+mod group;
 mod light;
 mod nearby;
+mod random;
 mod spots;
 
-use crate::assignment::{Feed, Uniform};
 use crate::equation::Reads;
 use crate::interpreter::Formula;
-use crate::scene::{Matrices, Moment, Vertex, perspective};
+use crate::scene::{Matrices, Vertex};
 use crate::{Assignment, Text, Value};
 use design::EyeSpace;
 pub(crate) use design::{Aim, Design, Normal};
-use glam::{DMat4, DQuat, DVec3, DVec4};
+use glam::{DMat4, DVec3, DVec4};
 use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{Rng, SeedableRng};
+use rand_chacha::rand_core::SeedableRng;
+use random::Random;
 pub use spots::{Crossings, EdgeDefect, Pictured, ProbeOutput, Spot, at_pixel, linear};
 pub(crate) use spots::{FragmentInputs, handed_at};
-use std::ops::{Range, RangeInclusive};
+use std::ops::Range;
 
 /// The last groups have one camera: the second of them has the positions of the first, the third has its own.
 const TWINS: usize = 3;
@@ -31,9 +33,6 @@ const JUDGING: u64 = 1;
 
 /// How often a vertex is drawn for which a right answer is no number, before it is taken as it is.
 const TRIES: usize = 100;
-
-/// A window's sides vary by such factors.
-const WINDOW: RangeInclusive<f64> = 0.5..=1.5;
 
 /// So many cameras of the probes that are fresh in every grading: 80 vertices.
 const FRESH_GROUPS: usize = 4;
@@ -238,60 +237,6 @@ impl Assignment {
         ProbeSet { seed, groups, probes, twins }
     }
 
-    /// What probes with the same uniforms are given. Nothing is drawn that the homework has not: the same seed gives the
-    /// same camera with uniforms of other kinds.
-    fn group(&self, random: &mut Random) -> ProbeGroup {
-        let uniforms = &self.interface.uniforms;
-        let mut matrices = random_camera(random);
-        let moves = uniforms.iter().any(|uniform| matches!(uniform.feed, Feed::Expression(_)));
-        let t = if moves { random.between(0.0, 1.0) } else { 0.0 };
-        let is_of_the_world = |feed: &Feed| match feed {
-            Feed::Role(role) => role.is_of_the_world(),
-            feed => matches!(feed, Feed::Expression(_)),
-        };
-        if uniforms.iter().any(|uniform| is_of_the_world(&uniform.feed)) {
-            matrices = self.in_the_world(random, t, &matrices);
-        }
-        let mut moment = self.scene.moment(t, matrices);
-        moment.resolution = self.random_window(random, &moment);
-        if self.scene.pass.is_some() {
-            moment.pass = self.random_pass(random, &matrices.model);
-        }
-        let value = |uniform: &Uniform| match &uniform.probe {
-            Some(bounds) if !uniform.follows_window(&moment) => bounds.draw(|| random.between(0.0, 1.0)),
-            _ => uniform.value(&moment),
-        };
-        let uniforms = uniforms.iter().map(value).collect();
-        ProbeGroup { matrices, t, uniforms, pass: moment.pass, window: moment.resolution }
-    }
-
-    /// A window of another size, where a uniform that follows it may vary: fragments have to lie in the window that the program is
-    /// told of. What follows from it stays within its bounds; where no such window is found, it is the homework's own.
-    fn random_window(&self, random: &mut Random, moment: &Moment) -> [f64; 2] {
-        let bounded = self.interface.uniforms.iter().filter_map(|uniform| Some((uniform, uniform.probe.as_ref()?)));
-        let bounded: Vec<_> = bounded.filter(|(uniform, _)| uniform.follows_window(moment)).collect();
-        if bounded.is_empty() {
-            return moment.resolution;
-        }
-        let mut window = || moment.resolution.map(|side| (side * random.within(&WINDOW)).round());
-        let is_within = |window: &[f64; 2]| {
-            let there = Moment { resolution: *window, ..*moment };
-            bounded.iter().all(|(uniform, bounds)| bounds.hold(&uniform.value(&there)))
-        };
-        (0..TRIES).map(|_| window()).find(is_within).unwrap_or(moment.resolution)
-    }
-
-    /// The camera in front of the homework's own model, turned and shifted: where that is stretched, so is this.
-    fn in_the_world(&self, random: &mut Random, t: f64, seen: &Matrices) -> Matrices {
-        let moment = self.scene.moment(t, *seen);
-        let own = self.scene.views.first().and_then(|view| view.draws.first());
-        let own = own.map_or(DMat4::IDENTITY, |draw| draw.model.at(&moment));
-        let turned = DQuat::from_axis_angle(random.direction(), random.between(0.4, 2.7));
-        let moved = DMat4::from_rotation_translation(turned, random.direction() * random.between(0.5, 3.0));
-        // What the eye sees is as far away as without a world.
-        Matrices::seen(moved * own, seen.model_view * moved.inverse(), seen.projection)
-    }
-
     /// Probes of another assignment with what is right by this one's equation, which may have other constants.
     pub fn reprobe(&self, probes: &ProbeSet) -> ProbeSet {
         let right = self.equation.right();
@@ -301,51 +246,6 @@ impl Assignment {
             (probe.colour, probe.position) = (outcome.colour(), outcome.position());
         }
         theirs
-    }
-}
-
-/// A camera that turns and shifts but, like the course's own, never stretches.
-///
-/// The shift is large: a normal that is moved as if it were a position ends up somewhere else altogether.
-fn random_camera(random: &mut Random) -> Matrices {
-    let axis = random.direction();
-    let rotation = DQuat::from_axis_angle(axis, random.between(0.4, 2.7));
-    let shift = random.direction() * random.between(3.0, 8.0);
-    let near = random.between(0.5, 2.0);
-    let projection =
-        perspective(random.between(0.4, 1.2), random.between(0.8, 1.8), near, near + random.between(10.0, 20.0));
-    Matrices::new(DMat4::from_rotation_translation(rotation, shift), projection)
-}
-
-/// Random numbers that are the same on every machine.
-struct Random(ChaCha8Rng);
-
-impl Random {
-    /// Uniform in [from, to).
-    fn between(&mut self, from: f64, to: f64) -> f64 {
-        // The upper 53 bits fill the significand of an f64.
-        let unit = (self.0.next_u64() >> 11) as f64 / (1u64 << 53) as f64;
-        from + (to - from) * unit
-    }
-
-    /// Uniform within a range.
-    fn within(&mut self, range: &RangeInclusive<f64>) -> f64 {
-        self.between(*range.start(), *range.end())
-    }
-
-    /// Uniform on the unit sphere: height and longitude are independent (Archimedes).
-    fn direction(&mut self) -> DVec3 {
-        let z = self.between(-1.0, 1.0);
-        let (s, c) = self.between(0.0, std::f64::consts::TAU).sin_cos();
-        let r = (1.0 - z * z).sqrt();
-        DVec3::new(r * c, r * s, z)
-    }
-
-    /// A unit vector at `angle` from `axis`, in a random direction around it.
-    fn at_angle(&mut self, axis: DVec3, angle: f64) -> DVec3 {
-        let aside = axis.any_orthonormal_vector();
-        let around = DQuat::from_axis_angle(axis, self.between(0.0, std::f64::consts::TAU));
-        axis * angle.cos() + around * aside * angle.sin()
     }
 }
 
