@@ -20,9 +20,8 @@ impl Assignment {
             return Vertex { number: before.number, ..vertex.along(tangent, before.tangent.w) };
         }
         let draws: Vec<_> = self.scene.views.iter().flat_map(|view| &view.draws).collect();
-        let pick = |random: &mut Random, count: usize| random.between(0.0, count as f64) as usize;
-        let mesh = &draws[pick(random, draws.len())].mesh;
-        let own = &mesh.vertices[pick(random, mesh.vertices.len())];
+        let mesh = &draws[random.below(draws.len())].mesh;
+        let own = &mesh.vertices[random.below(mesh.vertices.len())];
         let (low, high) = mesh.bounds();
         let aside = random.direction() * random.between(0.0, ASIDE) * (high - low).length();
         let coordinates = DVec2::new(random.between(0.0, 1.0), random.between(0.0, 1.0));

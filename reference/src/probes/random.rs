@@ -16,6 +16,11 @@ impl Random {
         from + (to - from) * unit
     }
 
+    /// Uniform among the whole numbers from 0 to before `count`.
+    pub(super) fn below(&mut self, count: usize) -> usize {
+        self.between(0.0, count as f64) as usize
+    }
+
     /// Uniform within a range.
     pub(super) fn within(&mut self, range: &RangeInclusive<f64>) -> f64 {
         self.between(*range.start(), *range.end())

@@ -174,10 +174,9 @@ impl Assignment {
     /// A triangle of what is drawn, moved and turned, a share for each corner, and which triangles are left out.
     fn triangle(&self, random: &mut Random) -> FragmentCandidate {
         let draws: Vec<_> = self.scene.views.iter().flat_map(|view| &view.draws).collect();
-        let pick = |random: &mut Random, count: usize| random.between(0.0, count as f64) as usize;
-        let draw = draws[pick(random, draws.len())];
+        let draw = draws[random.below(draws.len())];
         let mesh = &draw.mesh;
-        let numbers = mesh.triangles[pick(random, mesh.triangles.len())];
+        let numbers = mesh.triangles[random.below(mesh.triangles.len())];
         let own = numbers.map(|number| mesh.vertices[number as usize]);
         let (low, high) = mesh.bounds();
         let aside = random.direction() * random.between(0.0, ASIDE) * (high - low).length();
