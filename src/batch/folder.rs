@@ -18,6 +18,16 @@ pub struct OutputFolder {
     _lock: File,
 }
 
+/// Where the portrait and the page of a student are, in the output folder.
+pub fn portrait_file(key: &str) -> String {
+    format!("students/{key}.png")
+}
+
+/// See [`portrait_file`].
+pub fn page_file(key: &str) -> String {
+    format!("students/{key}.html")
+}
+
 /// Why a folder cannot be used.
 #[derive(Debug)]
 pub enum NotOpened {

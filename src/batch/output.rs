@@ -4,7 +4,6 @@ use super::changes::Changes;
 use super::class::Class;
 use super::folder::OutputFolder;
 use super::formats::{ClassFormat, KEY, exchange, feedback, gradebooks, grades, page, worksheet};
-use super::run::Wants;
 use super::summary::WrittenFiles;
 use crate::fault::Fault;
 use crate::language::Text;
@@ -76,6 +75,15 @@ fn is_usual(format: ClassFormat, given: OutputOptions) -> bool {
         ClassFormat::Nbgrader | ClassFormat::Canvas | ClassFormat::GradescopeGrades => false,
         _ => true,
     }
+}
+
+/// What is wanted of each student besides the report.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Wants {
+    /// The small picture.
+    pub portraits: bool,
+    /// The page.
+    pub pages: bool,
 }
 
 /// What these formats need of each student.

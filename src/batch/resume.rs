@@ -1,9 +1,11 @@
 //! How a run begins: in a new folder, where an earlier run stopped, or in place of one.
 
-use super::folder::OutputFolder;
+use super::class::{ClassEntry, Outcome};
+use super::folder::{OutputFolder, page_file, portrait_file};
 use super::formats::{ClassFormat, KEY};
 use super::journal::{self, FoundJournal, JournalHeader, JournalRecord, UnreadableJournal};
-use super::run::{page_file, portrait_file};
+use super::output::Wants;
+use super::roll::GradingCandidate;
 use crate::fault::Fault;
 use crate::language::Text;
 use clap::ValueEnum;
@@ -54,6 +56,33 @@ pub fn earlier(folder: &OutputFolder, shown: &Path, mode: ResumeMode) -> Result<
             Ok(None)
         }
     }
+}
+
+/// A candidate's entry by an earlier result, where that is still this hand-in's: the same bytes under the same names,
+/// graded, and with the files that are wanted.
+pub fn kept(
+    candidate: &GradingCandidate,
+    record: &JournalRecord,
+    folder: &OutputFolder,
+    wants: Wants,
+) -> Option<ClassEntry> {
+    let Outcome::Graded(report) = &record.outcome else { return None };
+    let names = candidate.files()?.files.iter().map(|file| &file.name);
+    if record.sha256 != candidate.sha256 || !report.sources.iter().map(|source| &source.name).eq(names) {
+        return None;
+    }
+    let key = &candidate.hand_in.student.key;
+    let has_portrait = wants.portraits && report.verdict.is_drawn();
+    let portrait = match has_portrait {
+        true => Some(folder.read(&portrait_file(key)).ok().flatten()?),
+        false => None,
+    };
+    let page = page_file(key);
+    let page = match wants.pages {
+        true => Some(folder.has(&page).then(|| folder.at(&page))?),
+        false => None,
+    };
+    Some(candidate.entry(record.outcome.clone(), portrait, page))
 }
 
 /// Refuses to mix results that were graded otherwise with those that are wanted.

@@ -3,10 +3,10 @@
 //! Every shard reads the whole input, because who shares an answer is a fact about the whole class. It grades its own
 //! students only. Hand-ins that need one grading are in one shard.
 
-use super::folder::OutputFolder;
+use super::folder::{OutputFolder, page_file, portrait_file};
 use super::journal::{self, FoundJournal, JournalRecord, UnreadableJournal};
 use super::resume::NotBegun;
-use super::run::{self, GradingCandidate};
+use super::roll::{GradingCandidate, groups};
 use crate::fault::Fault;
 use crate::language::Text;
 use serde::{Deserialize, Serialize};
@@ -64,7 +64,7 @@ impl Shard {
         let all: Vec<usize> = (0..candidates.len()).collect();
         let mut is_ours = vec![false; candidates.len()];
         // In turns, because students who stand side by side in a class often hand in at the same pace.
-        for group in run::groups(&candidates, &all).iter().skip(self.number - 1).step_by(self.count) {
+        for group in groups(&candidates, &all).iter().skip(self.number - 1).step_by(self.count) {
             group.iter().for_each(|&index| is_ours[index] = true);
         }
         candidates.into_iter().zip(is_ours).filter_map(|(candidate, is_ours)| is_ours.then_some(candidate)).collect()
@@ -124,7 +124,7 @@ fn copy(folder: &OutputFolder, from: &Path, record: &JournalRecord) -> Result<()
     if key.is_empty() || key.contains('/') {
         return Ok(());
     }
-    for name in [run::page_file(key), run::portrait_file(key)] {
+    for name in [page_file(key), portrait_file(key)] {
         match std::fs::read(from.join(&name)) {
             Ok(bytes) => drop(folder.write(&name, &bytes)?),
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => {}

@@ -10,9 +10,9 @@ use crate::batch::intake;
 use crate::batch::output::{self, OutputOptions};
 use crate::batch::portrait::Portraits;
 use crate::batch::resume::{self, NotBegun, ResumeMode};
-use crate::batch::run::Roll;
+use crate::batch::roll::{Roll, roll};
+use crate::batch::shard;
 use crate::batch::standing::Standing;
-use crate::batch::{run, shard};
 use crate::choice;
 use crate::cli::{BatchAction, BatchArguments, BatchCommand, MergeArguments};
 use crate::fault::Fault;
@@ -88,7 +88,7 @@ fn grade(
         false => intake::read(&arguments.earlier, &options)?.hand_ins,
     };
     let title = arguments.title.clone().unwrap_or(intake.title);
-    let Roll { mut candidates, comparisons } = run::roll(intake.hand_ins, earlier, &assignment);
+    let Roll { mut candidates, comparisons } = roll(intake.hand_ins, earlier, &assignment);
     if let Some(shard) = arguments.shard {
         candidates = shard.of(candidates);
     }

@@ -5,11 +5,13 @@ use crate::batch::class::{Class, ClassEntry, Outcome};
 use crate::batch::folder::OutputFolder;
 use crate::batch::formats::ClassFormat;
 use crate::batch::journal::{self, FoundJournal, Journal, JournalHeader, JournalRecord, RecordOf};
+use crate::batch::output::Wants;
 use crate::batch::page::Pages;
 use crate::batch::portrait::Portraits;
 use crate::batch::progress::ClassProgress;
 use crate::batch::resume::{self, NotBegun};
-use crate::batch::run::{ClassRun, GradingCandidate, Wants};
+use crate::batch::roll::GradingCandidate;
+use crate::batch::run::ClassRun;
 use crate::batch::shard::Shard;
 use crate::batch::{anonymous, json_lines, likeness, output, summary};
 use crate::cli::BatchArguments;
@@ -71,7 +73,7 @@ impl BatchSession<'_> {
         let keys: HashSet<&str> = candidates.iter().map(|candidate| candidate.hand_in.student.key.as_str()).collect();
         resume::forget(self.folder, &found.records, &keys)?;
         let entries: Vec<Option<ClassEntry>> =
-            candidates.iter().map(|candidate| candidate.reuse(of(candidate)?, self.folder, wants)).collect();
+            candidates.iter().map(|candidate| resume::kept(candidate, of(candidate)?, self.folder, wants)).collect();
         let (kept, torn) = (entries.iter().flatten().count(), found.torn);
         let rest = candidates.len() - kept;
         let is_new_file =

@@ -3,7 +3,7 @@
 use super::{DownloadSelection, Pick};
 use crate::batch::class::{Class, FileLocation, Outcome, Participant, Refused, Student};
 use crate::batch::intake::{HandInContent, StudentWork};
-use crate::batch::run;
+use crate::batch::roll::roll;
 use crate::fault::Fault;
 use crate::hand_in::HandIn;
 use crate::language::{Language, Text};
@@ -114,7 +114,7 @@ pub(super) fn class(
         outcomes.push(stored.map(outcome));
         hand_ins.push(StudentWork { student, content });
     }
-    let candidates = run::roll(hand_ins, Vec::new(), &state.assignment).candidates;
+    let candidates = roll(hand_ins, Vec::new(), &state.assignment).candidates;
     let entries = candidates.iter().zip(outcomes).zip(portraits).map(|((candidate, outcome), portrait)| {
         candidate.entry(outcome.unwrap_or_else(|| candidate.nothing()), portrait, None)
     });
