@@ -258,4 +258,13 @@ mod tests {
         // A shape in another place differs by more than any colour in the right one.
         assert_eq!(FrameResult::differs_most(&[frame(200.0, 900, 0), frame(0.0, 0, 3), agreeing]), Some(1));
     }
+
+    #[test]
+    fn an_area_outside_its_frame_has_no_pixels() {
+        let area = |x, y, width, height| Area { x, y, width, height }.pixels_within(4, 3);
+        assert_eq!(area(1, 1, 3, 2), Some(3 * 2));
+        assert_eq!(area(2, 1, 3, 2), None);
+        assert_eq!(area(1, 2, 3, 2), None);
+        assert_eq!(area(u32::MAX, 0, 2, 1), None);
+    }
 }
