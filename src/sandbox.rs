@@ -7,7 +7,8 @@
 //! Here, in the parent: [`pool`] grades, [`roster`] keeps workers ready, [`child`] is one of them, [`channel`] its
 //! pipes, [`library`] what it needs to know of an assignment, [`ending`] what its end means, [`memory`] whether this
 //! machine gives it enough.
-//! On both sides: [`check`] says whether an archive has a homework.
+//! On both sides: [`protocol`] is what they say to each other, as [`message`]s; [`check`] says whether an archive has a
+//! homework.
 //! There, in the worker: [`worker`] serves, [`unpacked`] is what it reads of such an archive, [`confine`], [`files`] and
 //! [`syscalls`] are the walls, [`preflight`] leans against them.
 
@@ -21,6 +22,7 @@ mod environment;
 mod files;
 mod library;
 mod memory;
+mod message;
 mod pool;
 mod preflight;
 mod protection;

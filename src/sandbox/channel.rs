@@ -3,7 +3,7 @@
 //! A worker that does not read, does not write or writes nonsense costs the caller its deadline and no more, so all
 //! ends are non-blocking and waited on together.
 
-use super::protocol::{self, Longest, MessageBody};
+use super::message::{Longest, MessageBody, decode, needed};
 use nix::fcntl::{FcntlArg, OFlag, fcntl};
 use nix::poll::{PollFd, PollFlags, PollTimeout, poll};
 use serde::de::DeserializeOwned;
@@ -72,7 +72,7 @@ impl Channel {
             self.listen();
             unsent = self.push(unsent);
             let open = self.pull(&mut received, longest)?;
-            match protocol::decode(&mut received, longest) {
+            match decode(&mut received, longest) {
                 Ok(Some(answer)) => return Ok(answer),
                 Ok(None) if open => {}
                 Ok(None) => return Err(LostAnswer::Closed),
@@ -121,7 +121,7 @@ impl Channel {
     /// Reads what is there; false at the end of the pipe.
     fn pull(&mut self, received: &mut Vec<u8>, longest: Longest) -> Result<bool, LostAnswer> {
         loop {
-            let needed = protocol::needed(received, longest).map_err(|error| LostAnswer::Garbled(error.to_string()))?;
+            let needed = needed(received, longest).map_err(|error| LostAnswer::Garbled(error.to_string()))?;
             // One byte more would show: a writer that never pauses is left to who decodes.
             let end = needed + 1;
             if received.len() >= end {

@@ -4,7 +4,8 @@
 //! no other file, is read by the service.
 
 use super::child::{REPORT_BYTES, Worker};
-use super::protocol::{self, Answered, Demand, FileHead, Longest, Reply};
+use super::message::Longest;
+use super::protocol::{self, Answered, Demand, FileHead, Reply};
 use super::unpacked::{MOST_BYTES, unpacked};
 use super::{Settings, WorkerLimits};
 use crate::expected;

@@ -3,8 +3,9 @@
 use super::channel::{Channel, LostAnswer};
 use super::ending::Ending;
 use super::library::{PictureLibrary, Turn};
+use super::message::{Longest, MessageBody, encode};
 use super::protection::{Policy, Protection};
-use super::protocol::{self, Answered, Demand, GradingRequest, Hello, Load, Longest, MessageBody, Reply};
+use super::protocol::{Answered, Demand, GradingRequest, Hello, Load, Reply};
 use super::{Settings, environment, memory, schedule};
 use crate::expected::Pack;
 use crate::fault::Fault;
@@ -180,7 +181,7 @@ impl Worker {
         longest: Longest,
         deadline: Duration,
     ) -> Result<(Reply, MessageBody), String> {
-        let message = protocol::encode(demand, body).map_err(|error| error.to_string())?;
+        let message = encode(demand, body).map_err(|error| error.to_string())?;
         self.channel.exchange::<Reply>(&message, longest, Instant::now() + deadline, &|| None).map_err(|lost| {
             let how = match lost {
                 LostAnswer::Timeout => format!("no answer after {} s", deadline.as_secs()),
@@ -205,7 +206,7 @@ impl Worker {
         deadline: Duration,
     ) -> Result<(Reply, MessageBody), Ending> {
         self.gradings += 1;
-        let message = protocol::encode(&Demand::Grade(request.clone()), &hand_in.concatenated())
+        let message = encode(&Demand::Grade(request.clone()), &hand_in.concatenated())
             .map_err(|error| Ending::Garbled(error.to_string()))?;
         let before = schedule::cpu_time(self.id());
         let longest = Longest { head: REPORT_BYTES, body: frames_bytes };

@@ -2,9 +2,10 @@
 //! other.
 
 use super::confine::{self, Confined, GradingMeter, lower};
+use super::message::{receive, send};
 use super::preflight::{self, IntrusionAttempt};
 use super::protection::{Layer, Protection};
-use super::protocol::{Answered, Demand, FileHead, GradingRequest, Hello, Load, REQUEST, Reply, receive, send};
+use super::protocol::{Answered, Demand, FileHead, GradingRequest, Hello, Load, REQUEST, Reply};
 use super::{WorkerLimits, check, syscalls};
 use crate::expected::{self, Pack};
 use crate::fault::Fault;
