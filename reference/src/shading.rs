@@ -1,9 +1,12 @@
 //! The colours of what is seen: the fragment stage, run for the pixels that a triangle covers.
 
+mod fragments;
+
 use crate::interpreter::{NotedLookup, Outputs, Program, UndefinedCause};
 use crate::pipeline::{PassedChannel, Pipeline, ShadedVertices, scalars, slices};
 use crate::rasteriser::{Coverage, Frame, SILHOUETTE_DISTANCE, Setup, Visible, quantised};
 use crate::{Assignment, Value};
+use fragments::Fragment;
 use std::collections::HashMap;
 
 /// Pixels that are shaded together: enough that a run costs little, few enough that their columns stay small.
@@ -31,18 +34,6 @@ pub(crate) struct ShadedDraw<'a> {
     pub uniforms: Vec<Value>,
     pub vertices: ShadedVertices,
     pub triangles: &'a [[u32; 3]],
-}
-
-/// A pixel that a triangle covers, or one beside it that its quad needs.
-#[derive(Clone, Copy)]
-struct Fragment {
-    /// The place of its pixel among those that are asked for.
-    pixel: Option<u32>,
-    /// The place of its triangle.
-    number: u32,
-    column: u32,
-    /// Counted from above; a row above the window is negative.
-    row: i64,
 }
 
 /// What a pixel's fragment came to.
@@ -127,13 +118,12 @@ impl Scenery<'_> {
 
     /// What the fragments of these pixels come to, with their places moved by so many pixels.
     fn pixels(&self, visible: &Visible, pixels: &[u32], moved: [f64; 2]) -> Vec<Shaded> {
-        let fragments = fragments(visible, pixels, self.pipeline.needs_quads(&self.assignment.textures));
+        let fragments = self.fragments(visible, pixels);
         let mut all = vec![Shaded::Discarded; pixels.len()];
-        let surface = |fragment: &Fragment| visible.setups()[fragment.number as usize].surface;
         // Triangles are numbered surface by surface.
-        for own in fragments.chunk_by(|a, b| surface(a) == surface(b)) {
+        for own in fragments.chunk_by(|a, b| a.surface(visible) == b.surface(visible)) {
             for chunk in own.chunks(CHUNK) {
-                let colours = self.run(visible, surface(&own[0]), chunk, moved);
+                let colours = self.run(visible, own[0].surface(visible), chunk, moved);
                 for (fragment, colour) in chunk.iter().zip(colours) {
                     fragment.pixel.into_iter().for_each(|place| all[place as usize] = colour);
                 }
@@ -182,9 +172,9 @@ impl Scenery<'_> {
 
     /// Where the fragment that is seen at a pixel looks textures up.
     pub fn lookups(&self, visible: &Visible, pixel: u32) -> Vec<NotedLookup> {
-        let fragments = fragments(visible, &[pixel], self.pipeline.needs_quads(&self.assignment.textures));
+        let fragments = self.fragments(visible, &[pixel]);
         let Some(place) = fragments.iter().position(|fragment| fragment.pixel.is_some()) else { return Vec::new() };
-        let surface = visible.setups()[fragments[place].number as usize].surface;
+        let surface = fragments[place].surface(visible);
         let outputs = self.outputs(visible, surface, &fragments, [0.0, 0.0], true);
         let all = outputs.into_iter().flat_map(|outputs| outputs.lookups);
         all.filter(|one| one.sample == place).collect()
@@ -192,74 +182,14 @@ impl Scenery<'_> {
 
     /// Why a colour is undefined among those that are seen before anything is thrown away; none where all are defined.
     pub fn undefined(&self, visible: &Visible) -> Option<UndefinedCause> {
-        let all = fragments(visible, &self.covered(visible), self.pipeline.needs_quads(&self.assignment.textures));
-        let surface = |fragment: &Fragment| visible.setups()[fragment.number as usize].surface;
-        all.chunk_by(|a, b| surface(a) == surface(b)).flat_map(|own| own.chunks(CHUNK)).find_map(|chunk| {
-            let outputs = self.outputs(visible, surface(&chunk[0]), chunk, [0.0, 0.0], false)?;
+        let all = self.fragments(visible, &self.covered(visible));
+        let mut chunks =
+            all.chunk_by(|a, b| a.surface(visible) == b.surface(visible)).flat_map(|own| own.chunks(CHUNK));
+        chunks.find_map(|chunk| {
+            let outputs = self.outputs(visible, chunk[0].surface(visible), chunk, [0.0, 0.0], false)?;
             let is_seen = |at: usize| chunk[at].pixel.is_some() && !outputs.discarded[at];
             outputs.outputs.get(self.pipeline.colour)?.first_undefined(is_seen)
         })
-    }
-
-    /// What the fragment stage reads, as columns.
-    fn inputs<'p>(
-        &self,
-        visible: &Visible,
-        program: &'p Program,
-        fragments: &[Fragment],
-        moved: [f64; 2],
-    ) -> Vec<(&'p str, Vec<Vec<f64>>)> {
-        let (width, height) = visible.size();
-        let mut places = Vec::with_capacity(fragments.len());
-        for fragment in fragments {
-            let (column, row) = (f64::from(fragment.column) + 0.5, fragment.row as f64 + 0.5);
-            let (x, y) = (2.0 * (column + moved[0]) / width - 1.0, 1.0 - 2.0 * (row + moved[1]) / height);
-            places.push((&visible.setups()[fragment.number as usize], x, y));
-        }
-        let column =
-            |of: &dyn Fn(&Setup, f64, f64) -> f64| places.iter().map(|(setup, x, y)| of(setup, *x, *y)).collect();
-        let given = |(place, input): (usize, &'p crate::interpreter::ProgramVariable)| {
-            let columns = match input.name.as_str() {
-                "gl_FragCoord" => vec![
-                    column(&|_, x, _| (x + 1.0) / 2.0 * width),
-                    column(&|_, _, y| (y + 1.0) / 2.0 * height),
-                    column(&Setup::depth),
-                    column(&Setup::reciprocal_w),
-                ],
-                "gl_FrontFacing" => vec![column(&|setup, _, _| f64::from(u8::from(setup.is_front)))],
-                "gl_PrimitiveID" => vec![column(&|setup, _, _| f64::from(setup.triangle))],
-                _ => {
-                    let varying = self.pipeline.varyings.iter().find(|varying| varying.input == place)?;
-                    varying
-                        .scalars
-                        .clone()
-                        .map(|scalar| self.interpolated(visible, &places, fragments, scalar))
-                        .collect()
-                }
-            };
-            Some((input.name.as_str(), columns))
-        };
-        program.inputs().iter().enumerate().filter_map(given).collect()
-    }
-
-    /// A varying at all places. Fragments of one triangle lie together.
-    fn interpolated(
-        &self,
-        visible: &Visible,
-        places: &[(&Setup, f64, f64)],
-        fragments: &[Fragment],
-        scalar: usize,
-    ) -> Vec<f64> {
-        let mut last = None;
-        let value = |(fragment, (setup, x, y)): (&Fragment, &(&Setup, f64, f64))| {
-            let ramp = match last {
-                Some((number, ramp)) if number == fragment.number => ramp,
-                _ => self.varying(&visible.setups()[fragment.number as usize], scalar),
-            };
-            last = Some((fragment.number, ramp));
-            ramp.at(*x, *y, setup.divisor(*x, *y))
-        };
-        fragments.iter().zip(places).map(value).collect()
     }
 
     /// The pixels whose colour is another one a little beside: a step, or the edge of a hole.
@@ -301,34 +231,4 @@ impl Scenery<'_> {
 
 fn is_undefined(shaded: &Shaded) -> bool {
     matches!(shaded, Shaded::Colour(colour) if colour.iter().any(|channel| channel.is_nan()))
-}
-
-/// The fragments of pixels: alone, or as 2 × 2 pixels of one triangle, row by row from below, with those that it does not
-/// cover.
-fn fragments(visible: &Visible, pixels: &[u32], in_quads: bool) -> Vec<Fragment> {
-    let (width, height) = visible.size();
-    let (width, height) = (width as u32, height as i64);
-    let fragment = |(place, pixel): (usize, &u32)| {
-        let number = visible.number(*pixel as usize)?;
-        Some(Fragment { pixel: Some(place as u32), number, column: pixel % width, row: i64::from(pixel / width) })
-    };
-    let mut alone: Vec<Fragment> = pixels.iter().enumerate().filter_map(fragment).collect();
-    if !in_quads {
-        // Those of one triangle lie together.
-        alone.sort_by_key(|fragment| fragment.number);
-        return alone;
-    }
-    // Rows are counted from below: there a window of an odd height has its first quad.
-    let quad = |fragment: &Fragment| (fragment.number, (height - 1 - fragment.row) / 2, fragment.column / 2);
-    alone.sort_by_key(quad);
-    let mut all: Vec<Fragment> = Vec::with_capacity(alone.len() * 2);
-    for own in alone.chunk_by(|a, b| quad(a) == quad(b)) {
-        let (number, up, right) = quad(&own[0]);
-        for (x, y) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
-            let (column, row) = (2 * right + x, height - 1 - (2 * up + y));
-            let covered = own.iter().find(|one| one.column == column && one.row == row);
-            all.push(covered.copied().unwrap_or(Fragment { pixel: None, number, column, row }));
-        }
-    }
-    all
 }
