@@ -7,14 +7,16 @@ mod film;
 mod listing;
 mod map;
 mod mark;
+mod motion;
 mod player;
 pub(crate) mod rich;
 mod sheet;
 mod shots;
 mod values;
 
-pub use self::film::{Film, FilmUse, Motion, PictureAddresses, TermFilm, expected_sheet};
+pub use self::film::{Film, FilmUse, PictureAddresses, TermFilm, expected_sheet};
 pub use self::mark::Mark;
+pub use self::motion::Motion;
 
 use self::body::ReportBody;
 use super::{Pictures, Report};
