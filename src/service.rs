@@ -27,6 +27,7 @@
 
 pub mod acts;
 pub mod api;
+mod blocking;
 pub mod classes;
 pub mod clients;
 pub mod clock;

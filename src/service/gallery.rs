@@ -5,10 +5,14 @@
 //! made of what it gives. What was made lately is kept in memory, whoever handed the file in, and many who ask at once
 //! wait for one drawing.
 
+mod right;
+
+pub use right::{RightPictures, goal};
+
 use super::State;
+use super::blocking::blocking;
 use super::errors::Problem;
 use super::store::Submission;
-use crate::batch::portrait::{self, Portraits};
 use crate::fault::Fault;
 use crate::grade::Order;
 use crate::pictures::expected_pictures;
@@ -16,9 +20,8 @@ use crate::report::html::{Film, FilmUse};
 use crate::report::{Picture, Pictures, pictures};
 use crate::sandbox;
 use moka::future::Cache;
-use reference::Assignment;
 use std::future::Future;
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 use tokio::sync::Semaphore;
 
 /// Bytes of pictures that are kept in memory.
@@ -73,54 +76,6 @@ pub struct Gallery {
     kept: Cache<GalleryKey, Arc<Pngs>>,
     /// One file is run at a time: who looks does not take the processors from who hands in.
     turn: Semaphore,
-}
-
-/// What a right answer to a homework draws, encoded when it is first asked for.
-#[derive(Debug)]
-pub struct RightPictures {
-    assignment: Arc<Assignment>,
-    poses: OnceLock<Vec<Vec<u8>>>,
-    portraits: OnceLock<Portraits>,
-    moving: OnceLock<Vec<u8>>,
-}
-
-impl RightPictures {
-    /// Those of a homework.
-    pub fn new(assignment: Arc<Assignment>) -> Self {
-        Self { assignment, poses: OnceLock::new(), portraits: OnceLock::new(), moving: OnceLock::new() }
-    }
-
-    /// How portraits are made, and the right one.
-    pub fn portraits(&self) -> Result<&Portraits, Fault> {
-        if let Some(portraits) = self.portraits.get() {
-            return Ok(portraits);
-        }
-        let portraits = Portraits::new(&self.assignment)?;
-        Ok(self.portraits.get_or_init(|| portraits))
-    }
-
-    /// What a right answer draws, small and moving.
-    fn moving(&self) -> Result<Vec<u8>, Fault> {
-        if let Some(moving) = self.moving.get() {
-            return Ok(moving.clone());
-        }
-        let moving = portrait::moving(&self.assignment)?;
-        Ok(self.moving.get_or_init(|| moving).clone())
-    }
-
-    /// One pose, from 0.
-    fn pose(&self, index: usize) -> Result<Option<Vec<u8>>, Fault> {
-        if let Some(poses) = self.poses.get() {
-            return Ok(poses.get(index).cloned());
-        }
-        let all = expected_pictures(&self.assignment).iter().map(pictures::png).collect::<Result<_, _>>()?;
-        Ok(self.poses.get_or_init(|| all).get(index).cloned())
-    }
-}
-
-/// What a right answer to a homework draws, small and moving.
-pub async fn goal(state: &State) -> Result<Vec<u8>, Problem> {
-    blocking(state, |state| state.right.moving()).await
 }
 
 impl Default for Gallery {
@@ -316,16 +271,4 @@ fn decoded(pngs: &Pngs) -> Result<Arc<[Picture]>, Fault> {
 fn differences(pictures: &Pictures) -> Result<Vec<Picture>, Fault> {
     let pairs = pictures.yours.iter().zip(pictures.expected.iter());
     pairs.map(|(a, b)| pictures::decode(&pictures::difference_png(a, b)?)).collect()
-}
-
-/// Does work that takes a processor for a while.
-pub async fn blocking<T: Send + 'static>(
-    state: &State,
-    work: impl FnOnce(&State) -> Result<T, Fault> + Send + 'static,
-) -> Result<T, Problem> {
-    let state = state.clone();
-    match tokio::task::spawn_blocking(move || work(&state)).await {
-        Ok(result) => result.map_err(|fault| Problem::of_fault(&fault)),
-        Err(panic) => Err(Problem::internal(&panic)),
-    }
 }

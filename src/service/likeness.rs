@@ -2,9 +2,9 @@
 //! kept beside it: archives, hand-ins without a name, and what the same homework has in other courses, as of earlier terms, in
 //! which the one who asks teaches as well.
 
+use super::blocking::blocking;
 use super::classes::{People, Person, people};
 use super::errors::Problem;
-use super::gallery::blocking;
 use super::identity::Teacher;
 use super::store::Submission;
 use super::{Service, State};
