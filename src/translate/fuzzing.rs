@@ -1,11 +1,12 @@
 //! Steps of the translation that the fuzzer enters from the side; in no other build.
 
-use super::{Interface, Submitted, first_pass, gate, spirv};
+use super::verdict::{Submitted, first_pass};
+use super::{LinkedInterface, gate, spirv};
 use crate::ffi::glslang::{Stage, StageText};
 use crate::source::Source;
 
 /// The words that the compiler writes for a file that it accepts.
-pub fn words(source: &Source, interface: &Interface) -> Option<Vec<u32>> {
+pub fn words(source: &Source, interface: &LinkedInterface) -> Option<Vec<u32>> {
     gate::check_text(source).ok()?;
     let mut stages = [Submitted::new(Stage::Vertex, source, interface)];
     first_pass(&mut stages, &[StageText::plain(Stage::Fragment, &interface.fragment)]).ok()?;

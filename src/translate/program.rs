@@ -1,10 +1,8 @@
 //! The stages of a homework as one program: those that are handed in, and those that are fixed.
 
 use super::module::{self, Built, Shader};
-use super::{
-    LinkedInterface, Submitted, TranslationRefusal, Variable, boundary, check_text, first_pass, fixed, gate, interface,
-    linked, text,
-};
+use super::verdict::{Submitted, compiled, first_pass, linked};
+use super::{LinkedInterface, TranslationRefusal, Variable, boundary, check_text, fixed, gate, interface, text};
 use crate::diagnostic::Diagnostic;
 use crate::fault::Fault;
 use crate::ffi::glslang::{Stage, StageText};
@@ -53,7 +51,7 @@ impl HomeworkProgram {
         let Some((stage, text)) = own else { return Ok(Self { interface, fixed: None }) };
         let text = text::c_text(text);
         // The compiler's table of built-ins is made under OpenGL's rules.
-        super::compiled(std::iter::once(StageText::plain(stage, &text)), &[]);
+        compiled(std::iter::once(StageText::plain(stage, &text)), &[]);
         let shader = fixed(stage, &text, &interface)?;
         Ok(Self { interface, fixed: Some(LinkedFixedStage { stage, text, shader }) })
     }
