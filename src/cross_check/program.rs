@@ -1,6 +1,7 @@
 //! The second opinion on a program with a fragment stage: what it shows at the probes.
 
-use super::{CrossCheck, Relation, TOLERANCE, VertexOpinion, summed_up};
+use super::CrossCheck;
+use super::compare::{Relation, TOLERANCE, VertexOpinion, summed_up};
 use crate::language::Text;
 use crate::render::Sample;
 use crate::source::Source;
