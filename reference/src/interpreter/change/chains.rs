@@ -1,7 +1,9 @@
 //! Slips between operands.
 
+mod brackets;
+
 use super::tree::ExpressionPlace;
-use super::{Local, NameScope, Operator, bare, is_literal};
+use super::{Local, NameScope, Operator, is_literal};
 use crate::interpreter::syntax::{Binary, Expression, ExpressionKind, Unary};
 use crate::interpreter::types::Type;
 
@@ -248,79 +250,6 @@ impl Chain<'_> {
             let mut others = self.others.clone();
             others.push((operator, self.line, self.operand(at).clone()));
             found.push(Local::new(kind, self.chain(self.first.clone(), others)).about(self.operand(at)));
-        }
-    }
-
-    /// A product of a sum of which only some parts are multiplied.
-    fn partly_grouped(&self, at: usize, inner: &Chain<'_>, found: &mut Vec<Local>) {
-        let product = |part: Expression| {
-            let part = self.bracketed(part);
-            let (mut first, mut others) = (self.first.clone(), self.others.clone());
-            match at {
-                0 => first = part,
-                _ => others[at - 1].2 = part,
-            }
-            self.chain(first, others)
-        };
-        for split in 1..inner.count() {
-            let (operator, line, _) = inner.others[split - 1];
-            let (left, right) = (inner.part(0, split), inner.part(split, inner.count()));
-            let sum = |a: Expression, b: Expression| self.chain(a, vec![(operator, line, b)]);
-            found.push(Local::new(Operator::Grouping, sum(left.clone(), product(right.clone()))));
-            found.push(Local::new(Operator::Grouping, sum(product(left), right)));
-        }
-    }
-
-    /// Brackets that are missing, or stand around something else.
-    fn grouped(&self, found: &mut Vec<Local>) {
-        for at in 0..self.count() {
-            let ExpressionKind::Chain(inner, rest) = &bare(self.operand(at)).kind else { continue };
-            let inner = Chain { first: inner, others: rest, line: self.line };
-            let (outer, within) = (self.others[at.saturating_sub(1)].0, inner.others[0].0);
-            if is_multiplicative(outer) && is_additive(within) {
-                // a * (b + c) * d becomes a * b + c * d.
-                let last = inner.count() - 1;
-                let mut left = inner.first.clone();
-                if at > 0 {
-                    let mut others: Others = self.others[..at].to_vec();
-                    others[at - 1].2 = left;
-                    left = self.chain(self.first.clone(), others);
-                }
-                let mut others = inner.others.clone();
-                if at + 1 < self.count() {
-                    let right = self.chain(inner.operand(last).clone(), self.others[at..].to_vec());
-                    others[last - 1].2 = right;
-                }
-                found.push(Local::new(Operator::Grouping, self.chain(left, others)));
-                self.partly_grouped(at, &inner, found);
-            } else if is_additive(outer) && is_multiplicative(within) {
-                // a + b * c becomes (a + b) * c, and a * b + c becomes a * (b + c).
-                if at > 0 {
-                    let mut others: Others = self.others[..at].to_vec();
-                    others[at - 1].2 = inner.first.clone();
-                    let sum = self.bracketed(self.chain(self.first.clone(), others));
-                    let product = self.chain(sum, inner.others.clone());
-                    let rest = self.others[at..].to_vec();
-                    let whole = if rest.is_empty() { product } else { self.chain(product, rest) };
-                    found.push(Local::new(Operator::Grouping, whole));
-                }
-                if at + 1 < self.count() {
-                    let last = inner.count() - 1;
-                    let sum = self.chain(inner.operand(last).clone(), self.others[at..].to_vec());
-                    let mut others = inner.others.clone();
-                    others[last - 1].2 = self.bracketed(sum);
-                    let product = self.chain(inner.first.clone(), others);
-                    let whole = match at {
-                        0 => product,
-                        _ => {
-                            let mut before: Others = self.others[..at].to_vec();
-                            before[at - 1].2 = product;
-                            self.chain(self.first.clone(), before)
-                        }
-                    };
-                    found.push(Local::new(Operator::Grouping, whole));
-                }
-            }
         }
     }
 }
