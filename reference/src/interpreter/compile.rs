@@ -2,6 +2,7 @@
 
 mod builder;
 mod call;
+mod conditional;
 mod constructor;
 mod control;
 mod conversion;
