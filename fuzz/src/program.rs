@@ -1,6 +1,11 @@
 //! Random bytes → a shader that mostly compiles: what lies behind the compiler is not reached by random text.
 
+// Tests include this file by its path, and find the module beside it by that alone.
+#[path = "program/templates.rs"]
+mod templates;
+
 use std::fmt::Write as _;
+use templates::{Type, leaf, of_fragments, templates};
 
 /// Deepest nesting of statements and of expressions.
 const DEEPEST: usize = 6;
@@ -21,23 +26,6 @@ fn written(bytes: &[u8], is_fragment: bool) -> String {
     let mut writer = Writer { bytes: bytes.iter(), text: String::new(), functions: 0, names: 0, is_fragment };
     writer.file();
     writer.text
-}
-
-#[derive(Clone, Copy, PartialEq)]
-enum Type {
-    Bool,
-    Int,
-    Uint,
-    Float,
-    Vec2,
-    Vec3,
-    Vec4,
-    Mat3,
-    IVec3,
-    UVec2,
-    BVec3,
-    Mat2x3,
-    Double,
 }
 
 /// The variables that every function has beside those that are made of its parameters.
@@ -204,8 +192,7 @@ impl Writer<'_> {
 
     fn expression(&mut self, kind: Type, depth: usize) {
         if depth >= DEEPEST {
-            let leaf = leaf(kind);
-            self.text += leaf;
+            self.text += leaf(kind);
             return;
         }
         let (common, more) = (templates(kind), if self.is_fragment { of_fragments(kind) } else { &[] });
@@ -217,230 +204,15 @@ impl Writer<'_> {
             "I % I" if self.is_fragment => "I % max(I, 1)",
             other => other,
         };
-        // B I U F ² ³ ⁴ M J E C W D that stand alone are an expression of that type.
         let mut before = ' ';
         for (at, part) in template.char_indices() {
             let after = template[at + part.len_utf8()..].chars().next().unwrap_or(' ');
             let is_in_a_word = before.is_ascii_alphanumeric() || after.is_ascii_alphanumeric();
             before = part;
-            match part {
-                part if is_in_a_word => self.text.push(part),
-                'B' => self.expression(Type::Bool, depth + 1),
-                'I' => self.expression(Type::Int, depth + 1),
-                'U' => self.expression(Type::Uint, depth + 1),
-                'F' => self.expression(Type::Float, depth + 1),
-                '²' => self.expression(Type::Vec2, depth + 1),
-                '³' => self.expression(Type::Vec3, depth + 1),
-                '⁴' => self.expression(Type::Vec4, depth + 1),
-                'M' => self.expression(Type::Mat3, depth + 1),
-                'J' => self.expression(Type::IVec3, depth + 1),
-                'E' => self.expression(Type::UVec2, depth + 1),
-                'C' => self.expression(Type::BVec3, depth + 1),
-                'W' => self.expression(Type::Mat2x3, depth + 1),
-                'D' => self.expression(Type::Double, depth + 1),
-                other => self.text.push(other),
+            match Type::of_letter(part).filter(|_| !is_in_a_word) {
+                Some(kind) => self.expression(kind, depth + 1),
+                None => self.text.push(part),
             }
         }
-    }
-}
-
-fn leaf(kind: Type) -> &'static str {
-    match kind {
-        Type::Bool => "b",
-        Type::Int => "i",
-        Type::Uint => "k",
-        Type::Float => "u",
-        Type::Vec2 => "d",
-        Type::Vec3 => "n",
-        Type::Vec4 => "q",
-        Type::Mat3 => "m",
-        Type::IVec3 => "j",
-        Type::UVec2 => "e",
-        Type::BVec3 => "c",
-        Type::Mat2x3 => "w",
-        Type::Double => "r",
-    }
-}
-
-fn templates(kind: Type) -> &'static [&'static str] {
-    match kind {
-        Type::Bool => &[
-            "b",
-            "(F < F)",
-            "!B",
-            "(B && B)",
-            "(B || B)",
-            "(B ^^ B)",
-            "(I == I)",
-            "any(lessThan(³, ³))",
-            "isnan(F)",
-            "true",
-            "any(C)",
-            "all(C)",
-            "(³ == ³)",
-            "(D < D)",
-            "C.y",
-        ],
-        Type::Int => &[
-            "i",
-            "7",
-            "(I + I)",
-            "I / I",
-            "I % I",
-            "(I << 3)",
-            "(I >> I)",
-            "~I",
-            "int(F)",
-            "many[i + I]",
-            "(B ? I : I)",
-            "abs(I)",
-            "made.a[i - I]",
-            "-2147483648",
-            "J.z",
-            "findMSB(I)",
-            "bitCount(U)",
-            "bitfieldExtract(I, 3, 7)",
-            "clamp(I, -5, 9)",
-            "int(U)",
-            "sign(I)",
-            "made.a.length()",
-            "(I ^ I)",
-            "max(I, I)",
-        ],
-        Type::Uint => &[
-            "k",
-            "9u",
-            "(U * U)",
-            "U / U",
-            "U % U",
-            "(U ^ U)",
-            "uint(I)",
-            "floatBitsToUint(F)",
-            "bitfieldReverse(U)",
-            "E.y",
-            "bitfieldInsert(U, U, 4, 9)",
-            "(U >> 3u)",
-            "packUnorm4x8(⁴)",
-            "packUnorm2x16(²)",
-            "(B ? U : U)",
-        ],
-        Type::Float => &[
-            "u",
-            "0.5",
-            "(F + F)",
-            "(F * F)",
-            "F / F",
-            "dot(³, ³)",
-            "max(F, 0.0)",
-            "pow(F, F)",
-            "sqrt(F)",
-            "mod(F, F)",
-            "³.y",
-            "⁴[i ^ I]",
-            "length(²)",
-            "float(I)",
-            "g",
-            "intBitsToFloat(I)",
-            "(B ? F : F)",
-            "determinant(M)",
-            "(u += F)",
-            "exp(F)",
-            "fract(F)",
-            "smoothstep(0.0, 1.0, F)",
-            "clamp(F, -1.0, 1.0)",
-            "atan(F, F)",
-            "sign(F)",
-            "step(F, F)",
-            "inversesqrt(F)",
-            "float(U)",
-            "log2(F)",
-            "sin(F)",
-            "tanh(F)",
-            "float(D)",
-            "distance(³, ³)",
-            "fma(F, F, F)",
-            "ldexp(F, 3)",
-            "roundEven(F)",
-            "degrees(F)",
-            "float(B)",
-            "W[1].x",
-        ],
-        Type::Vec2 => &[
-            "d",
-            "vec2(F)",
-            "vec2(F, F)",
-            "³.zx",
-            "(² * F)",
-            "floor(²)",
-            "min(², ²)",
-            "modf(², d)",
-            "(³ * W)",
-            "unpackUnorm2x16(U)",
-            "vec2(E)",
-        ],
-        Type::Vec3 => &[
-            "n",
-            "vec3(F)",
-            "vec3(², F)",
-            "normalize(³)",
-            "cross(³, ³)",
-            "reflect(³, ³)",
-            "(M * ³)",
-            "(³ + ³)",
-            "mix(³, ³, F)",
-            "clamp(³, 0.0, 1.0)",
-            "⁴.wzy",
-            "M[i + I]",
-            "refract(³, ³, F)",
-            "faceforward(³, ³, ³)",
-            "(W * ²)",
-            "vec3(J)",
-            "mix(³, ³, C)",
-            "exp2(³)",
-            "vec3(C)",
-        ],
-        Type::Vec4 => &[
-            "q",
-            "vec4(³, F)",
-            "(mc * ⁴)",
-            "field[i + I]",
-            "(⁴ - ⁴)",
-            "vec4(², ²)",
-            "pv",
-            "step(⁴, ⁴)",
-            "unpackUnorm4x8(U)",
-        ],
-        Type::IVec3 => {
-            &["j", "ivec3(I)", "(J + J)", "ivec3(³)", "(J & J)", "max(J, J)", "J.zxy", "abs(J)", "ivec3(C)", "(J << 2)"]
-        }
-        Type::UVec2 => &["e", "uvec2(U, U)", "(E * E)", "floatBitsToUint(²)", "uvec2(J)", "(E | E)"],
-        Type::BVec3 => {
-            &["c", "lessThan(³, ³)", "greaterThanEqual(J, J)", "not(C)", "bvec3(J)", "equal(J, J)", "bvec3(B, B, B)"]
-        }
-        Type::Mat2x3 => {
-            &["w", "mat2x3(F)", "(M * W)", "mat2x3(³, ³)", "(W + W)", "matrixCompMult(W, W)", "outerProduct(³, ²)"]
-        }
-        Type::Double => &["r", "double(F)", "(D * D)", "sqrt(D)", "max(D, D)", "0.1lf", "(D - D)"],
-        Type::Mat3 => &["m", "mat3(F)", "(M * M)", "transpose(M)", "inverse(M)", "outerProduct(³, ³)", "mat3(mg)"],
-    }
-}
-
-/// What only fragments have, besides.
-fn of_fragments(kind: Type) -> &'static [&'static str] {
-    match kind {
-        Type::Bool => &["gl_FrontFacing"],
-        Type::Float => &["dFdx(F)", "dFdy(F)", "fwidth(F)", "texture(picture, ²).x", "gl_FragCoord.x"],
-        Type::Vec2 => &["dFdx(²)", "gl_FragCoord.xy", "vec2(textureSize(picture, 0))"],
-        Type::Vec3 => &["dFdy(³)", "textureProj(picture, ³).zyx", "textureOffset(picture, ², ivec2(1, -2)).xyz"],
-        Type::Vec4 => &[
-            "texture(picture, ²)",
-            "textureLod(picture, ², F)",
-            "textureGrad(picture, ², ², ²)",
-            "texelFetch(picture, ivec2(²) & 3, 0)",
-            "textureGather(picture, ², 2)",
-            "gl_FragCoord",
-            "fwidth(⁴)",
-        ],
-        _ => &[],
     }
 }
