@@ -1,8 +1,11 @@
-//! Learning platforms: registration, launches and every refusal of one, choosing a homework, scores, the roster.
+//! Learning platforms: registration, launches, choosing a homework, scores, the roster.
 
+mod courses;
+mod forged;
+mod launch;
 pub mod platform;
 
-use crate::bench::{Bench, Reply, config};
+use crate::bench::{Bench, config};
 use crate::cluster::Database;
 use crate::roster::{form, get, request};
 use crate::{on_both, right, sample};
@@ -12,7 +15,7 @@ use ggrade::service::Config;
 use ggrade::service::clock::Clock;
 use ggrade::service::lti::scores::send_due;
 use ggrade::service::store::{AssignmentSettings, LateRules};
-use jsonwebtoken::{Algorithm, EncodingKey, Header};
+use launch::{answer, begin, bench, cookie, encoded, hand_in, launch, registered, with_cookie};
 use platform::{CLIENT, DEPLOYMENT, Platform};
 use serde_json::{Value, json};
 use std::time::Duration;
@@ -22,125 +25,10 @@ on_both!(
     whoever_launches_is_who_the_platform_says,
     scores_go_home_until_they_arrive,
     the_roster_is_the_platforms,
-    every_forged_launch_is_refused,
-    nobody_comes_in_from_a_course_that_nobody_connected,
-    a_platforms_course_leads_to_its_course_here,
     no_address_is_told_by_which_nobody_reaches_the_service,
 );
 
 const WRONG: &str = "wrong/specular-half-unnormalized--average.vert";
-
-fn encoded(text: &str) -> String {
-    percent_encoding::utf8_percent_encode(text, percent_encoding::NON_ALPHANUMERIC).to_string()
-}
-
-async fn bench(database: Database, clock: Clock) -> (Bench, Platform) {
-    let config = Config { public_url: Some("http://ggrade.example".into()), ..config() };
-    let bench = Bench::with(database, config, crate::pool(), clock).await;
-    let platform = Platform::start().await;
-    (bench, platform)
-}
-
-/// Registers the two with each other as an administrator does.
-async fn registered(bench: &Bench, platform: &Platform) -> Reply {
-    let page = form(bench, "/teacher/platforms", "wish=link").await;
-    let link = page.all(".link code")[0].clone();
-    let path = link.strip_prefix("http://ggrade.example").expect("an address of the service").to_owned();
-    let configuration = encoded(&format!("{}/openid-configuration", platform.issuer));
-    let address = format!("{path}?openid_configuration={configuration}&registration_token=one-time&lang=en");
-    let reply = bench.get(&address).await;
-    let framed = Request::get(&address).header("sec-fetch-dest", "iframe").header(header::ACCEPT, "text/html");
-    let again = bench.send(framed.body(Body::empty()).expect("a request")).await;
-    assert_eq!(again.status, StatusCode::FORBIDDEN, "a link works once");
-    let policy = again.header("content-security-policy");
-    assert!(policy.contains(&format!("frame-ancestors 'self' {}", platform.issuer)), "the platform shows it: {policy}");
-    let keys = bench.get("/lti/jwks.json").await;
-    platform.seen().tools_keys = Some(serde_json::from_slice(&keys.body).expect("keys"));
-    reply
-}
-
-/// A launch under way: what the platform is asked, and the browser's cookie.
-struct Begun {
-    query: std::collections::HashMap<String, String>,
-    cookie: String,
-    cookie_line: String,
-}
-
-async fn begin(bench: &Bench, platform: &Platform, framed: bool) -> Begun {
-    let address = format!(
-        "/lti/login?iss={}&login_hint=42&client_id={CLIENT}&lti_message_hint=hint&target_link_uri=x",
-        encoded(&platform.issuer)
-    );
-    let reply = match framed {
-        true => with_trial(bench, &address).await,
-        false => visit(bench, &address, "document", "").await,
-    };
-    assert_eq!(reply.status, StatusCode::SEE_OTHER, "{reply:?}");
-    let next = reqwest::Url::parse(reply.header("location")).expect("an address");
-    assert_eq!(next.path(), "/auth");
-    let lines = reply.headers.get_all(header::SET_COOKIE).iter().map(|line| line.to_str().expect("text"));
-    let line = lines.into_iter().find(|line| line.contains("ggrade_launch_")).expect("a cookie").to_owned();
-    Begun {
-        query: next.query_pairs().into_owned().collect(),
-        cookie: line.split(';').next().expect("a cookie").to_owned(),
-        cookie_line: line,
-    }
-}
-
-async fn visit(bench: &Bench, address: &str, dest: &str, cookie: &str) -> Reply {
-    let request = Request::get(address).header("sec-fetch-dest", dest).header(header::COOKIE, cookie);
-    let request = request.header(header::ACCEPT, "text/html").header(header::ACCEPT_LANGUAGE, "en");
-    bench.send(request.body(Body::empty()).expect("a request")).await
-}
-
-/// Somebody comes in a frame: the browser is given a cookie to keep first, and comes again with it.
-async fn with_trial(bench: &Bench, address: &str) -> Reply {
-    let reply = visit(bench, address, "iframe", "").await;
-    let again = reply.header("location").to_owned();
-    assert!(again.starts_with("/lti/login?iss=") && again.ends_with("&tried=1"), "{reply:?}");
-    let trial = reply.header("set-cookie").split(';').next().expect("a cookie").to_owned();
-    // One that keeps none is shown a new window before the platform is asked, which answers once for each time that somebody comes.
-    let without = visit(bench, &again, "iframe", "").await;
-    assert_eq!(without.all("h1"), ["Open it in a new window"], "{}", without.text());
-    let link = again.trim_end_matches("&tried=1").replace('&', "&#38;");
-    assert!(without.text().contains(&format!("href=\"{link}\" target=\"_blank\"")), "{}", without.text());
-    visit(bench, &again, "iframe", &trial).await
-}
-
-/// The platform's answer, sent by the browser.
-async fn answer(bench: &Bench, begun: &Begun, token: &str) -> Reply {
-    let body = format!("id_token={}&state={}", encoded(token), begun.query["state"]);
-    let request = Request::post("/lti/launch")
-        .header(header::CONTENT_TYPE, "application/x-www-form-urlencoded")
-        .header(header::ACCEPT, "text/html")
-        .header(header::ACCEPT_LANGUAGE, "en")
-        .header(header::COOKIE, &begun.cookie);
-    bench.send(request.body(Body::from(body)).expect("a request")).await
-}
-
-async fn launch(bench: &Bench, platform: &Platform, subject: &str, role: &str) -> Reply {
-    let begun = begin(bench, platform, false).await;
-    let claims = platform.claims(&begun.query["nonce"], subject, role);
-    answer(bench, &begun, &platform.sign(&claims)).await
-}
-
-fn cookie(reply: &Reply, name: &str) -> String {
-    let lines = reply.headers.get_all(header::SET_COOKIE).iter().map(|line| line.to_str().expect("text"));
-    let mut found =
-        lines.filter_map(|line| line.split(';').next()).filter(|pair| pair.starts_with(&format!("{name}=")));
-    found.next_back().unwrap_or_else(|| panic!("no {name} in {reply:?}")).to_owned()
-}
-
-async fn with_cookie(bench: &Bench, address: &str, cookie: &str) -> Reply {
-    let request = Request::get(address).header(header::COOKIE, cookie).header(header::ACCEPT_LANGUAGE, "en");
-    bench.send(request.header(header::ACCEPT, "text/html").body(Body::empty()).expect("a request")).await
-}
-
-async fn hand_in(bench: &Bench, cookie: &str, bytes: Vec<u8>) -> Reply {
-    let request = Request::post("/api/v1/submissions").header(header::COOKIE, cookie);
-    let request = request.header(header::CONTENT_TYPE, "text/plain").header("sec-fetch-site", "same-origin");
-    bench.send(request.body(Body::from(bytes)).expect("a request")).await
-}
 
 async fn a_platform_is_registered_and_a_homework_chosen(database: Database) {
     let (bench, platform) = bench(database, Clock::system()).await;
@@ -314,207 +202,6 @@ async fn the_roster_is_the_platforms(database: Database) {
     let student = cookie(&launch(&bench, &platform, "s2", "Learner").await, "ggrade");
     assert_eq!(hand_in(&bench, &student, right()).await.status, StatusCode::CREATED);
     assert_eq!(get(&bench, "/teacher").await.all(".overview .lead"), ["1 of 2 have handed in"]);
-    bench.finish().await;
-}
-
-async fn every_forged_launch_is_refused(database: Database) {
-    let (bench, platform) = bench(database, Clock::system()).await;
-    registered(&bench, &platform).await;
-    let now = jsonwebtoken::get_current_timestamp();
-    let deployment = "https://purl.imsglobal.org/spec/lti/claim/deployment_id";
-    let version = "https://purl.imsglobal.org/spec/lti/claim/version";
-    let kind = "https://purl.imsglobal.org/spec/lti/claim/message_type";
-    let changes: [(&str, Value, &str); 12] = [
-        ("iss", json!("https://evil.example"), "another issuer"),
-        ("aud", json!("another-client"), "another client"),
-        ("aud", json!([CLIENT, "another-client"]), "another client"),
-        ("azp", json!("another-client"), "another client"),
-        ("nonce", json!("another nonce"), "not the answer to this launch"),
-        ("nonce", Value::Null, "not the answer to this launch"),
-        ("exp", json!(now - 120), "too old"),
-        ("iat", json!(now + 3600), "of the future"),
-        (version, json!("1.1"), "not of LTI 1.3.0"),
-        (kind, json!("LtiSubmissionReviewRequest"), "kind of LTI message"),
-        (deployment, json!("foreign"), "not approved"),
-        ("sub", Value::Null, "does not say who you are"),
-    ];
-    for (claim, value, said) in changes {
-        let begun = begin(&bench, &platform, false).await;
-        let mut claims = platform.claims(&begun.query["nonce"], "s1", "Learner");
-        claims[claim] = value.clone();
-        let reply = answer(&bench, &begun, &platform.sign(&claims)).await;
-        assert_eq!(reply.status, StatusCode::FORBIDDEN, "{claim}: {value}: {}", reply.text());
-        assert!(reply.text().contains(said), "{claim}: {value}: {}", reply.text());
-        assert!(
-            reply
-                .headers
-                .get_all(header::SET_COOKIE)
-                .iter()
-                .all(|line| !line.as_bytes().starts_with(b"ggrade_teacher"))
-        );
-    }
-    // Tokens that are not what they say: unsigned, of another key, with the public key as a secret.
-    let begun = begin(&bench, &platform, false).await;
-    let claims = platform.claims(&begun.query["nonce"], "s1", "Learner");
-    let part = |json: &Value| {
-        use base64::Engine;
-        base64::prelude::BASE64_URL_SAFE_NO_PAD.encode(json.to_string())
-    };
-    let honest = platform.sign(&claims);
-    let body = honest.split('.').nth(1).expect("a body").to_owned();
-    let header = |alg: &str| json!({ "alg": alg, "typ": "JWT", "kid": "platform-key" });
-    let by = |alg, key: &EncodingKey, id: &str| {
-        let header = Header { kid: Some(id.to_owned()), ..Header::new(alg) };
-        jsonwebtoken::encode(&header, &claims, key).expect("a token")
-    };
-    let confused = EncodingKey::from_secret(platform.public_modulus().as_bytes());
-    let forged = [
-        (format!("{}.{body}.", part(&header("none"))), "no signed token"),
-        (
-            format!("{}.{body}.{}", part(&header("none")), honest.rsplit('.').next().expect("a signature")),
-            "no signed token",
-        ),
-        (format!("{}.{body}.", part(&header("RS256"))), "signature is wrong"),
-        (by(Algorithm::HS256, &confused, "platform-key"), "not signed with RS256"),
-        (by(Algorithm::RS256, &platform::key(), "platform-key"), "signature is wrong"),
-        (by(Algorithm::RS256, &platform::key(), "unknown-key"), "no key"),
-        ("nonsense".to_owned(), "no signed token"),
-        (String::new(), "no signed token"),
-    ];
-    for (token, said) in forged {
-        let begun = Begun { cookie_line: String::new(), ..begin(&bench, &platform, false).await };
-        let reply = answer(&bench, &begun, &token).await;
-        assert_eq!(reply.status, StatusCode::FORBIDDEN, "{token}");
-        assert!(reply.text().contains(said), "{token}: {}", reply.text());
-    }
-    // Several audiences are right where it says which of them is meant; a list of one is as good as its member.
-    for (aud, azp) in [(json!([CLIENT]), Value::Null), (json!([CLIENT, "another"]), json!(CLIENT))] {
-        let begun = begin(&bench, &platform, false).await;
-        let mut claims = platform.claims(&begun.query["nonce"], "s1", "Learner");
-        (claims["aud"], claims["azp"]) = (aud, azp);
-        let token = platform.sign(&claims);
-        assert_eq!(answer(&bench, &begun, &token).await.status, StatusCode::SEE_OTHER);
-        // The same again, and the same with the state of another launch: its nonce was used.
-        assert!(answer(&bench, &begun, &token).await.text().contains("has been used"));
-        let other = begin(&bench, &platform, false).await;
-        assert!(answer(&bench, &other, &token).await.text().contains("not the answer to this launch"));
-    }
-    // Another browser brings the answer: it is told to open a window of its own, and is nobody.
-    let begun = begin(&bench, &platform, false).await;
-    let token = platform.sign(&platform.claims(&begun.query["nonce"], "s1", "Learner"));
-    let stolen = Begun { cookie: "ggrade_launch_x=y".to_owned(), ..begun };
-    let lost = answer(&bench, &stolen, &token).await;
-    assert_eq!(lost.status, StatusCode::FORBIDDEN);
-    assert!(lost.text().contains("target=\"_blank\"") && lost.text().contains("/lti/login?iss="), "{}", lost.text());
-    // The foreign deployment waits for an administrator, who approves it.
-    let id = bench.state.store.platforms().await.expect("platforms")[0].id.clone();
-    let page = get(&bench, "/teacher/platforms").await;
-    assert!(page.all(".panel li").iter().any(|line| line.contains("foreign") && line.contains("Approve")));
-    let wish = format!("wish=approve&platform={id}&deployment=foreign");
-    assert_eq!(form(&bench, "/teacher/platforms", &wish).await.status, StatusCode::SEE_OTHER);
-    let begun = begin(&bench, &platform, false).await;
-    let mut claims = platform.claims(&begun.query["nonce"], "s1", "Learner");
-    claims[deployment] = json!("foreign");
-    assert_eq!(answer(&bench, &begun, &platform.sign(&claims)).await.status, StatusCode::SEE_OTHER);
-    bench.finish().await;
-}
-
-/// A launch from another course of the platform.
-async fn launch_from(bench: &Bench, platform: &Platform, (subject, role): (&str, &str), context: Value) -> Reply {
-    let begun = begin(bench, platform, false).await;
-    let mut claims = platform.claims(&begun.query["nonce"], subject, role);
-    claims["https://purl.imsglobal.org/spec/lti/claim/context"] = context;
-    answer(bench, &begun, &platform.sign(&claims)).await
-}
-
-/// Says to which course here a platform's course belongs.
-async fn connect(bench: &Bench, context: &str, course: &str) -> Reply {
-    let id = bench.state.store.platforms().await.expect("platforms")[0].id.clone();
-    form(bench, "/teacher/platforms", &format!("wish=connect&platform={id}&context={context}&course={course}")).await
-}
-
-async fn nobody_comes_in_from_a_course_that_nobody_connected(database: Database) {
-    let (bench, platform) = bench(database, Clock::system()).await;
-    registered(&bench, &platform).await;
-    let own = launch(&bench, &platform, "teacher", "Instructor").await;
-    assert_eq!(own.status, StatusCode::SEE_OTHER, "the first course is connected by itself");
-    // Whoever teaches something else at the same platform can link here, and comes in neither as a lecturer nor as a student.
-    let theirs = json!({ "id": 9, "title": "Knitting" });
-    for role in ["Instructor", "Learner"] {
-        let refused = launch_from(&bench, &platform, ("mallory", role), theirs.clone()).await;
-        assert_eq!(refused.status, StatusCode::FORBIDDEN, "{role}");
-        assert!(refused.text().contains("The course “Knitting”"), "{}", refused.text());
-        assert!(
-            refused
-                .headers
-                .get_all(header::SET_COOKIE)
-                .iter()
-                .all(|line| !line.as_bytes().starts_with(b"ggrade_teacher="))
-        );
-    }
-    assert!(bench.state.store.students().await.expect("students").is_empty());
-    let page = get(&bench, "/teacher/platforms").await;
-    assert!(page.all(".panel li").iter().any(|line| line.contains("Knitting")), "{}", page.text());
-    assert_eq!(connect(&bench, "9", "").await.status, StatusCode::SEE_OTHER);
-    let let_in = launch_from(&bench, &platform, ("mallory", "Learner"), theirs.clone()).await;
-    assert_eq!(let_in.header("location"), "/a/ggsample06");
-    assert_eq!(connect(&bench, "9", "-").await.status, StatusCode::SEE_OTHER);
-    assert_eq!(launch_from(&bench, &platform, ("mallory", "Learner"), theirs).await.status, StatusCode::FORBIDDEN);
-    bench.finish().await;
-}
-
-async fn a_platforms_course_leads_to_its_course_here(database: Database) {
-    let (bench, platform) = bench(database, Clock::system()).await;
-    let course = crate::courses::made(&bench).await;
-    registered(&bench, &platform).await;
-    // With several courses somebody has to say which one it is.
-    assert_eq!(launch(&bench, &platform, "teacher", "Instructor").await.status, StatusCode::FORBIDDEN);
-    assert_eq!(connect(&bench, "course-2", "nowhere").await.status, StatusCode::NOT_FOUND);
-    assert_eq!(connect(&bench, "course-2", "cg-2027").await.status, StatusCode::SEE_OTHER);
-
-    let teacher = launch(&bench, &platform, "teacher", "Instructor").await;
-    assert_eq!(teacher.header("location"), "/c/cg-2027/a/ggsample06/teacher", "{}", teacher.text());
-    let session = cookie(&teacher, "ggrade_teacher");
-    assert_eq!(with_cookie(&bench, "/c/cg-2027/a/ggsample06/teacher/settings", &session).await.status, StatusCode::OK);
-    assert_eq!(with_cookie(&bench, "/teacher/settings", &session).await.header("location"), "/teacher/login");
-
-    let begun = begin(&bench, &platform, false).await;
-    let mut claims = platform.claims(&begun.query["nonce"], "teacher", "Instructor");
-    claims["https://purl.imsglobal.org/spec/lti/claim/message_type"] = json!("LtiDeepLinkingRequest");
-    claims["https://purl.imsglobal.org/spec/lti-dl/claim/deep_linking_settings"] =
-        json!({ "deep_link_return_url": format!("{}/return", platform.issuer), "accept_multiple": true });
-    let choice = answer(&bench, &begun, &platform.sign(&claims)).await;
-    let text = choice.text();
-    let token = text.split("name=\"JWT\" value=\"").nth(1).and_then(|rest| rest.split('"').next()).expect("a token");
-    let chosen = platform.checked(token, &platform.issuer);
-    let item = &chosen["https://purl.imsglobal.org/spec/lti-dl/claim/content_items"][0];
-    assert_eq!(item["url"], "http://ggrade.example/c/cg-2027/a/ggsample06");
-
-    let student = launch(&bench, &platform, "s1", "Learner").await;
-    assert_eq!(student.header("location"), "/c/cg-2027/a/ggsample06");
-    let theirs = cookie(&student, "ggrade_cg-2027");
-    let request = Request::post("/c/cg-2027/api/v1/submissions?assignment=ggsample06").header(header::COOKIE, &theirs);
-    let request = request.header(header::CONTENT_TYPE, "text/plain").header("sec-fetch-site", "same-origin");
-    let handed_in = bench.send(request.body(Body::from(right())).expect("a request")).await;
-    assert_eq!(handed_in.status, StatusCode::CREATED, "{handed_in:?}");
-    send_due(&course).await;
-    let scores = platform.seen().scores.clone();
-    assert_eq!((scores.len(), &scores[0]["scoreGiven"]), (1, &json!(100.0)));
-    assert!(scores[0]["comment"].as_str().expect("a comment").contains("http://ggrade.example/c/cg-2027/r/"));
-    assert!(bench.state.store.students().await.expect("students").is_empty(), "nobody is in the first course");
-    let id = bench.state.store.platforms().await.expect("platforms")[0].id.clone();
-    let page = form(&bench, "/c/cg-2027/teacher/platforms", &format!("wish=roster&platform={id}&link=3")).await;
-    assert!(page.text().contains("2 students are on the roster now."), "{}", page.text());
-    // The course itself switches nothing of it, and begins no launch of its own.
-    let off = form(&bench, "/c/cg-2027/teacher/platforms", &format!("wish=off&platform={id}")).await;
-    assert_eq!(off.status, StatusCode::NOT_FOUND);
-    let login = bench.get(&format!("/c/cg-2027/lti/login?iss={}&login_hint=1", encoded(&platform.issuer))).await;
-    assert_eq!(login.problem(), "lti");
-    // Connected with another course, its grades come from there alone.
-    assert_eq!(connect(&bench, "course-2", "").await.status, StatusCode::SEE_OTHER);
-    assert_eq!(launch(&bench, &platform, "s1", "Learner").await.header("location"), "/a/ggsample06");
-    assert!(course.store.links().await.expect("links").is_empty());
-    drop(course);
     bench.finish().await;
 }
 
