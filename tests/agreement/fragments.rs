@@ -2,7 +2,7 @@
 
 use super::opengl::{Given, Matrix, OpenGl, Texels, Version};
 use super::programs::{Random, program};
-use super::scenes::texture;
+use super::scenes::homework::texture;
 use ggrade::cross_check::{self, CrossCheck, DriverOutput, Opinion};
 use ggrade::language::Text;
 use reference::interpreter::{Outputs, Precision, Program, Stage, Texture};

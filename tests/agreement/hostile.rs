@@ -1,6 +1,7 @@
 //! Fragment stages that mean harm: each ends soon, by itself or by a limit that names its line, and the renderer goes on.
 
-use super::scenes::{renderer, sheets};
+use super::scenes::homework::sheets;
+use super::scenes::renderer;
 use ggrade::diagnostic::{Diagnostic, DiagnosticStage};
 use ggrade::translate::TranslationRefusal;
 
