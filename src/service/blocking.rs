@@ -4,14 +4,16 @@ use super::State;
 use super::errors::Problem;
 use crate::fault::Fault;
 
-/// Does work that takes a processor for a while.
+/// Does work that takes a processor or waits for the disk; a panic in it is a failure of ours.
+pub async fn aside<T: Send + 'static>(work: impl FnOnce() -> T + Send + 'static) -> Result<T, Problem> {
+    tokio::task::spawn_blocking(work).await.map_err(|panic| Problem::internal(&panic))
+}
+
+/// The same with a homework's state.
 pub async fn blocking<T: Send + 'static>(
     state: &State,
     work: impl FnOnce(&State) -> Result<T, Fault> + Send + 'static,
 ) -> Result<T, Problem> {
     let state = state.clone();
-    match tokio::task::spawn_blocking(move || work(&state)).await {
-        Ok(result) => result.map_err(|fault| Problem::of_fault(&fault)),
-        Err(panic) => Err(Problem::internal(&panic)),
-    }
+    aside(move || work(&state)).await?.map_err(|fault| Problem::of_fault(&fault))
 }

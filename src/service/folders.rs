@@ -5,6 +5,7 @@
 //! what the second one has read, and nothing else. The folders are in the database: of each homework the one that was published
 //! last is served, in the place of what the command line names.
 
+use super::blocking::aside;
 use super::errors::Problem;
 use super::grading;
 use super::identity::{Teacher, new_id};
@@ -47,8 +48,7 @@ pub enum Publication {
 /// Draws the right pictures of a homework, so that nobody's page waits for them.
 async fn drawn(assignment: &Arc<Assignment>) -> Result<(), Problem> {
     let assignment = Arc::clone(assignment);
-    let drawing = tokio::task::spawn_blocking(move || pages::warm(&assignment)).await;
-    drawing.map_err(|panic| Problem::internal(&panic))
+    aside(move || pages::warm(&assignment)).await
 }
 
 /// Reads a folder that was checked. What it says of a broken one is the folder's file, and what is wrong in it.

@@ -11,7 +11,7 @@ use crate::batch::formats::{ClassFormat, worksheet};
 use crate::batch::output;
 use crate::language::{Language, Text};
 use crate::service::State;
-use crate::service::blocking::blocking;
+use crate::service::blocking::{aside, blocking};
 use crate::service::errors::Problem;
 use crate::service::store::Batch;
 use members::{class, members};
@@ -166,8 +166,6 @@ pub async fn download(
             }
         }
     }
-    let made =
-        tokio::task::spawn_blocking(move || written(&class, format, sheet.as_deref(), &temporary.path().join("out")));
-    let made = made.await.map_err(|panic| Problem::internal(&panic))?;
+    let made = aside(move || written(&class, format, sheet.as_deref(), &temporary.path().join("out"))).await?;
     made.map_err(|fault| Problem::of_fault(&fault))
 }

@@ -3,6 +3,7 @@
 use super::download::{Download, DownloadOptions, DownloadSelection, Steps, archive, download};
 use crate::language::{Language, Text};
 use crate::service::State;
+use crate::service::blocking::aside;
 use crate::service::errors::Problem;
 use crate::service::identity::new_id;
 use crate::service::store::Progress;
@@ -119,11 +120,11 @@ async fn make(
 ) -> Result<Made, Problem> {
     let Download { name, bytes: content, notes } = download(state, whose, wanted, steps).await?;
     let bytes = content.len();
-    let path = tokio::task::spawn_blocking(move || {
+    let path = aside(move || {
         let path = tempfile::NamedTempFile::new()?.into_temp_path();
         std::fs::write(&path, content)?;
         std::io::Result::Ok(path)
     });
-    let path = path.await.map_err(|panic| Problem::internal(&panic))?.map_err(|error| Problem::internal(&error))?;
+    let path = path.await?.map_err(|error| Problem::internal(&error))?;
     Ok(Made { name, path, bytes, notes })
 }

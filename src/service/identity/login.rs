@@ -7,6 +7,7 @@ use super::staff::{LONGEST_PASSWORD, PASSWORD_SETTING, normal_login};
 use super::teacher::of_token;
 use super::{Teacher, Visitor, new_token, token_hash};
 use crate::service::Service;
+use crate::service::blocking::aside;
 use crate::service::clock::millis;
 use crate::service::errors::Problem;
 use crate::service::limits::Client;
@@ -157,6 +158,5 @@ async fn matches(service: &Service, password: &str, hash: String) -> Result<bool
     // One at a time: each takes a processor and some memory for a while.
     let _turn = service.login_turn.acquire().await;
     let password = password.to_owned();
-    let checked = tokio::task::spawn_blocking(move || password_matches(&password, &hash)).await;
-    checked.map_err(|error| Problem::internal(&error))
+    aside(move || password_matches(&password, &hash)).await
 }

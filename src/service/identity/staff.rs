@@ -7,6 +7,7 @@ use super::accounts;
 use super::secrets::hash_password;
 use super::{Teacher, new_id, new_token, token_hash};
 use crate::service::Service;
+use crate::service::blocking::aside;
 use crate::service::clock::{Millis, millis};
 use crate::service::courses::public_address;
 use crate::service::errors::Problem;
@@ -143,8 +144,7 @@ pub async fn choose_password(service: &Service, secret: &str, password: &str) ->
     }
     let _turn = service.login_turn.acquire().await;
     let password = password.to_owned();
-    let hash = tokio::task::spawn_blocking(move || hash_password(&password)).await;
-    let hash = hash.map_err(|error| Problem::internal(&error))?.map_err(|fault| Problem::of_fault(&fault))?;
+    let hash = aside(move || hash_password(&password)).await?.map_err(|fault| Problem::of_fault(&fault))?;
     service.accounts().set_staff_password(&member.id, &hash).await?;
     if member.role == StaffRole::Administrator {
         service.accounts().close_shared_way(PASSWORD_SETTING).await?;

@@ -1,6 +1,7 @@
 //! The keys with which this service signs: made when the first is needed, and changed from time to time.
 
 use super::super::Service;
+use super::super::blocking::aside;
 use super::super::clock::{Millis, millis};
 use super::super::errors::Problem;
 use super::super::identity::new_id;
@@ -84,8 +85,7 @@ async fn renew(service: &Service, store: &Store) -> Result<(), Problem> {
     if newest.is_some_and(|since| since + days(LIFE) > now) {
         return Ok(());
     }
-    let made = tokio::task::spawn_blocking(new_key).await.map_err(|error| Problem::internal(&error))?;
-    let pem = made.map_err(|error| Problem::internal(&error))?;
+    let pem = aside(new_key).await?.map_err(|error| Problem::internal(&error))?;
     Ok(store.add_signing_key(&new_id(), &pem, now, now - days(KEPT)).await?)
 }
 

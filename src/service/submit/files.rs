@@ -6,6 +6,7 @@ use crate::diagnostic::Diagnostic;
 use crate::hand_in::{HandIn, HandedInFile};
 use crate::language::Text;
 use crate::service::State;
+use crate::service::blocking::aside;
 use crate::service::errors::Problem;
 use crate::service::store;
 use crate::slots::Slot;
@@ -34,8 +35,7 @@ pub(super) async fn checked(state: &State, upload: &Upload) -> Result<(store::As
 pub(super) async fn asked_for(state: &State, sent: HandIn) -> Result<HandIn, Problem> {
     let given = given(state, sent.files);
     let options = intake::IntakeOptions::new(&state.assignment);
-    let chosen = tokio::task::spawn_blocking(move || intake::one(given, &options));
-    let hand_in = match chosen.await.map_err(|panic| Problem::internal(&panic))? {
+    let hand_in = match aside(move || intake::one(given, &options)).await? {
         HandInContent::Files { hand_in, .. } => hand_in,
         HandInContent::Nothing(why) => return Err(unfilled(&why)),
     };
@@ -56,8 +56,7 @@ pub async fn for_slots(
 ) -> Result<impl Iterator<Item = (usize, HandedInFile)>, Problem> {
     let given = given(state, sent);
     let options = intake::IntakeOptions::new(&state.assignment);
-    let placed = tokio::task::spawn_blocking(move || intake::some(given, shown, &options));
-    let placed = placed.await.map_err(|panic| Problem::internal(&panic))?.map_err(|why| unfilled(&why))?;
+    let placed = aside(move || intake::some(given, shown, &options)).await?.map_err(|why| unfilled(&why))?;
     Ok((0..).zip(placed).filter_map(|(slot, file)| Some((slot, file?))))
 }
 

@@ -13,7 +13,7 @@ use crate::report::html::BASE_STYLE;
 use crate::report::json;
 use crate::report::text::number;
 use crate::service::State;
-use crate::service::blocking::blocking;
+use crate::service::blocking::{aside, blocking};
 use crate::service::classes::Made;
 use crate::service::classes::people::people;
 use crate::service::clock::rfc3339;
@@ -82,7 +82,7 @@ pub async fn archive(service: &Service, language: Language, steps: &Arc<Steps>) 
         homeworks,
     };
     let index = index.render().map_err(|error| Problem::internal(&error))?;
-    let written = tokio::task::spawn_blocking(move || {
+    let written = aside(move || {
         std::fs::write(folder.path().join("index.html"), index)?;
         std::fs::write(folder.path().join("log.csv"), log)?;
         let file = tempfile::NamedTempFile::new()?;
@@ -90,8 +90,7 @@ pub async fn archive(service: &Service, language: Language, steps: &Arc<Steps>) 
         let bytes = file.as_file().metadata()?.len();
         std::io::Result::Ok((file.into_temp_path(), bytes))
     });
-    let written = written.await.map_err(|panic| Problem::internal(&panic))?;
-    let (path, bytes) = written.map_err(|error| Problem::of_fault(&disk(&error)))?;
+    let (path, bytes) = written.await?.map_err(|error| Problem::of_fault(&disk(&error)))?;
     let bytes = usize::try_from(bytes).unwrap_or(usize::MAX);
     Ok(Made { name: "term.zip".to_owned(), path, bytes, notes: Vec::new() })
 }
