@@ -16,6 +16,7 @@ mod interface;
 pub(crate) mod limits;
 mod log;
 mod module;
+mod old_lookups;
 mod opaque;
 mod portability;
 mod program;
@@ -108,12 +109,18 @@ fn check_text(source: &Source) -> Result<(), TranslationRefusal> {
     if let Some(error) = strict::hidden_version(source) {
         return Err(TranslationRefusal::Rejected(vec![error]));
     }
-    concessions::refuse_old_lookups(source)
+    old_lookups::refuse(source)
 }
 
 /// SPIR-V of a text that the first pass accepts. That the stages fit together, the first pass has seen.
-fn second_pass(stage: Stage, text: &str, renamed: &[Renamed], version: i32) -> Result<Vec<u32>, Fault> {
-    let ready = text::for_spirv(text, version, stage);
+fn second_pass(
+    stage: Stage,
+    text: &str,
+    preamble: &CStr,
+    renamed: &[Renamed],
+    version: i32,
+) -> Result<Vec<u32>, Fault> {
+    let ready = text::for_spirv(text, preamble, version, stage);
     let text = StageText { stage, text: &ready.text, preamble: &ready.preamble, version: ready.version };
     let mut outcome = compile(&GlslangRequest { stages: &[text], rules: GlslangRules::SpirV, emit: stage });
     concessions::in_own_names(&mut outcome, renamed);
@@ -129,7 +136,7 @@ fn fixed(stage: Stage, text: &CStr, interface: &LinkedInterface) -> Result<Shade
     let text = text.to_str().unwrap_or_default();
     let source =
         source::read_stage(stage, "fixed", text.as_bytes()).map_err(|_| unsupported("the text of a fixed stage"))?;
-    let spirv = second_pass(stage, text, &[], source.version())?;
+    let spirv = second_pass(stage, text, c"", &[], source.version())?;
     let how = Built { stage, outputs: None, is_fixed: true, poisons: false };
     module::build(spirv, &source, interface, how).map_err(|refusal| match refusal {
         TranslationRefusal::Fault(fault) => fault,

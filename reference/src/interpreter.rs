@@ -54,6 +54,7 @@ mod types;
 #[cfg(test)]
 mod tests;
 
+pub use builtin::lookup::{is_lookup, lookup_of_today};
 pub use change::{
     ChangedPart, FREE, Ingredients, Operator, ProgramRepair, ProgramSlip, Repairable, program_slips,
     program_without_parts,

@@ -1,7 +1,7 @@
 //! What this compiler refuses and drivers take: the text is changed so that it takes it too.
 
 use super::log::{self, LogEntry};
-use super::{TranslationRefusal, spirv, text, unsupported};
+use super::{spirv, text};
 use crate::diagnostic::{Diagnostic, DiagnosticStage};
 use crate::ffi::glslang::CompilerOutput;
 use crate::language::Text;
@@ -63,83 +63,6 @@ pub(super) fn grant(text: &str, log: &str, source: &Source) -> Option<Granted> {
 pub(super) fn unimplemented(log: &str) -> Option<String> {
     let entries = log::entries(log);
     entries.iter().find(|entry| entry.message == "feature not yet implemented").map(|entry| entry.token.to_owned())
-}
-
-/// From this version on, drivers have no `texture2D` and its like.
-const NO_OLD_LOOKUPS: i32 = 420;
-
-/// What the names of old lookups go on with behind `texture` or `shadow`.
-const KINDS_OF_TEXTURE: [&str; 4] = ["1D", "2D", "3D", "Cube"];
-
-/// The lookup of today that one of old GLSL is; none where there is none of the same kind, as for shadows.
-fn lookup_of_today(word: &str) -> Option<&'static str> {
-    let kind = word.strip_prefix("texture")?;
-    let rest = KINDS_OF_TEXTURE.iter().find_map(|start| kind.strip_prefix(start))?;
-    Some(match rest {
-        "" => "texture",
-        "Lod" => "textureLod",
-        "Proj" => "textureProj",
-        "ProjLod" => "textureProjLod",
-        _ => return None,
-    })
-}
-
-/// The functions of old GLSL, called and not the student's own, at which the compiler ends the process.
-fn old_lookups(code: &str) -> Vec<(usize, &str)> {
-    let is_old = |word: &str| {
-        let kind = word.strip_prefix("texture").or_else(|| word.strip_prefix("shadow"));
-        kind.is_some_and(|kind| KINDS_OF_TEXTURE.iter().any(|start| kind.starts_with(start)))
-    };
-    let is_called = |at: usize, word: &str| code[at + word.len()..].trim_start().starts_with('(');
-    // Behind a type stands a declaration.
-    let is_own = |at: usize| {
-        let before = code[..at].trim_end();
-        before.ends_with(|c: char| c.is_ascii_alphanumeric() || c == '_') && !before.ends_with("return")
-    };
-    let called = || text::words(code).filter(|&(at, word)| is_old(word) && is_called(at, word));
-    let own: Vec<&str> = called().filter(|&(at, _)| is_own(at)).map(|(_, word)| word).collect();
-    called().filter(|(_, word)| !own.contains(word)).collect()
-}
-
-/// What neither the compiler takes nor anything else says: an old lookup that drivers have no more, or that has no other name.
-pub(super) fn refuse_old_lookups(source: &Source) -> Result<(), TranslationRefusal> {
-    let code = source.code();
-    let is_gone = source.version() >= NO_OLD_LOOKUPS;
-    let found = old_lookups(code).into_iter().find(|(_, word)| is_gone || lookup_of_today(word).is_none());
-    let Some((at, word)) = found else { return Ok(()) };
-    let Some(today) = lookup_of_today(word).filter(|_| is_gone) else {
-        return Err(unsupported(&format!("`{word}`")).into());
-    };
-    let (line, column) = source.position(at);
-    let message = Text::new(
-        format!("There is no function `{word}` in this version of GLSL."),
-        format!("この GLSL のバージョンに関数 `{word}` はありません。"),
-    );
-    let hint = Text::new(format!("Its name is `{today}`."), format!("`{today}` と書きます。"));
-    let error =
-        Diagnostic::error(DiagnosticStage::Compile, message).hint(hint).at(line, Some(column)).spanning(word.len());
-    Err(TranslationRefusal::Rejected(vec![error]))
-}
-
-/// The text with the lookups of today, each on as many columns, and a warning for the first.
-pub(super) fn with_lookups_of_today(text: String, source: &Source) -> (String, Option<Diagnostic>) {
-    let old = old_lookups(source.code());
-    let Some((at, word)) = old.first() else { return (text, None) };
-    let mut renewed = text.clone();
-    for (at, word) in old_lookups(&text) {
-        if let Some(today) = lookup_of_today(word) {
-            renewed.replace_range(at..at + word.len(), &format!("{today:width$}", width = word.len()));
-        }
-    }
-    let today = lookup_of_today(word).unwrap_or("texture");
-    let message = Text::new(
-        format!("`{word}` is a name of old GLSL, which drivers from GLSL 4.20 on refuse: write `{today}`."),
-        format!(
-            "`{word}` は古い GLSL の関数で、GLSL 4.20 以降のドライバではエラーになります。`{today}` と書きましょう。"
-        ),
-    );
-    let (line, column) = source.position(*at);
-    (renewed, Some(Diagnostic::warning(DiagnosticStage::Compile, message).at(line, Some(column)).spanning(word.len())))
 }
 
 impl Granted {

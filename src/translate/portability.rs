@@ -67,12 +67,23 @@ fn version_line(source: &Source, version: i32) -> Option<Diagnostic> {
         );
         return Some(warning(source, number, message));
     }
-    let profile = *words.get(1).filter(|(_, word)| *word == "compatibility")?;
+    let profile = compatibility(source)?;
     let message = Text::new(
         "Drivers that have only the core profile refuse `compatibility`.",
         "コアプロファイルだけに対応したドライバでは `compatibility` はエラーになります。",
     );
     Some(warning(source, profile, message))
+}
+
+/// The word that asks for the compatibility profile.
+fn compatibility(source: &Source) -> Option<(usize, &str)> {
+    let words = directives(source, "version").next()?;
+    words.get(1).copied().filter(|(_, word)| *word == "compatibility")
+}
+
+/// Whether a text asks for the compatibility profile.
+pub(super) fn is_compatible(source: &Source) -> bool {
+    compatibility(source).is_some()
 }
 
 /// An `#extension` behind the first declaration.

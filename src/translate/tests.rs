@@ -77,7 +77,8 @@ fn what_the_compiler_lacks_is_our_fault() {
         "subroutine float F(float a);\nsubroutine(F) float f(float a) { return a; }\nsubroutine uniform F g;";
     assert!(matches!(run("410", subroutine, "vc *= g(1.0);"), Err(TranslationRefusal::Fault(_))));
     let shadow = "uniform sampler2DShadow t;";
-    assert!(matches!(run("410", shadow, "vc *= shadow2D(t, pv.xyz);"), Err(TranslationRefusal::Fault(_))));
+    let with_a_bias = "vc *= shadow2D(t, pv.xyz) + shadow2D(t, pv.xyz, 1.0);";
+    assert!(matches!(run("410", shadow, with_a_bias), Err(TranslationRefusal::Fault(_))));
     // The student's own function of that name is none of the compiler's.
     assert_eq!(warnings("410", "vec4 texture2D(vec2 a) { return a.xyxy; }", "vc *= texture2D(pv.xy);"), []);
 }
@@ -87,6 +88,10 @@ fn a_lookup_of_old_glsl_is_taken_as_drivers_take_it() {
     let lookup = "vc *= texture2D(t, pv.xy);";
     assert!(warnings("410", "uniform sampler2D t;", lookup).contains(&(Some(8), Some(7))));
     assert_eq!(errors("420", "uniform sampler2D t;", lookup), [(Some(8), Some(7))]);
+    // One that compares gives a vector, unlike that of today.
+    let compared = "vc *= shadow2DProj(t, vec4(pv.xy, max(pv.z, 0.0), pv.w)).r;";
+    assert!(warnings("410", "uniform sampler2DShadow t;", compared).contains(&(Some(8), Some(7))));
+    assert_eq!(errors("420", "uniform sampler2DShadow t;", compared), [(Some(8), Some(7))]);
 }
 
 #[test]

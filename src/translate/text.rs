@@ -5,7 +5,7 @@
 
 use crate::ffi::glslang::Stage;
 use crate::source::{self, Source};
-use std::ffi::CString;
+use std::ffi::{CStr, CString};
 use std::ops::Range;
 
 /// The text of `source` for both passes.
@@ -138,8 +138,8 @@ pub(super) struct ForSpirv {
 /// that is left in OpenGL's core profile, under the names of the preamble.
 const FIRST_SPIRV_VERSION: i32 = 330;
 
-/// Makes `text`, which the first pass accepts, ready for SPIR-V.
-pub(super) fn for_spirv(text: &str, version: i32, stage: Stage) -> ForSpirv {
+/// Makes `text`, which the first pass accepts with `preamble` before it, ready for SPIR-V.
+pub(super) fn for_spirv(text: &str, preamble: &CStr, version: i32, stage: Stage) -> ForSpirv {
     let has_old_qualifiers = words(text).any(|(_, word)| word == "attribute" || word == "varying");
     let mut bytes = text.as_bytes().to_vec();
     for (at, word) in words(text).filter(|(_, word)| matches!(*word, "shared" | "packed")) {
@@ -148,13 +148,14 @@ pub(super) fn for_spirv(text: &str, version: i32, stage: Stage) -> ForSpirv {
             bytes[at..at + word.len()].copy_from_slice(b"std140");
         }
     }
+    let qualifiers = match stage {
+        Stage::Vertex if has_old_qualifiers => c"#define attribute in\n#define varying out\n",
+        Stage::Fragment if has_old_qualifiers => c"#define varying in\n",
+        _ => c"",
+    };
     ForSpirv {
         text: CString::new(bytes).unwrap_or_default(),
-        preamble: c_text(match stage {
-            Stage::Vertex if has_old_qualifiers => "#define attribute in\n#define varying out\n",
-            Stage::Fragment if has_old_qualifiers => "#define varying in\n",
-            _ => "",
-        }),
+        preamble: CString::new([preamble.to_bytes(), qualifiers.to_bytes()].concat()).unwrap_or_default(),
         version: (version < FIRST_SPIRV_VERSION || self::version(text) != version)
             .then_some(version.max(FIRST_SPIRV_VERSION)),
     }
@@ -217,10 +218,14 @@ mod tests {
 
     #[test]
     fn layouts_of_blocks_become_one_that_spirv_has() {
-        let ready =
-            for_spirv("#version 410\nlayout(shared) uniform B { float a; };\nfloat shared_;\n", 410, Stage::Vertex);
+        let ready = for_spirv(
+            "#version 410\nlayout(shared) uniform B { float a; };\nfloat shared_;\n",
+            c"",
+            410,
+            Stage::Vertex,
+        );
         assert_eq!(ready.text.to_str(), Ok("#version 410\nlayout(std140) uniform B { float a; };\nfloat shared_;\n"));
         assert_eq!(ready.version, None);
-        assert_eq!(for_spirv("varying vec4 a;", 120, Stage::Vertex).version, Some(330));
+        assert_eq!(for_spirv("varying vec4 a;", c"", 120, Stage::Vertex).version, Some(330));
     }
 }

@@ -1,7 +1,7 @@
 //! The first pass: what the compiler says of the texts of all stages, under OpenGL's rules.
 
 use super::concessions::{self, Renamed};
-use super::{LinkedInterface, TranslationRefusal, hints, log, portability, strict, text, unsupported};
+use super::{LinkedInterface, TranslationRefusal, hints, log, old_lookups, portability, strict, text, unsupported};
 use crate::diagnostic::Diagnostic;
 use crate::fault::Fault;
 use crate::ffi::glslang::{CompilerOutput, GlslangRequest, GlslangRules, Reached, Stage, StageText, compile};
@@ -19,19 +19,23 @@ pub(super) struct Submitted<'a> {
     pub interface: &'a LinkedInterface,
     /// The text that the compiler is given under OpenGL's rules.
     text: String,
+    /// Macros that it needs before it.
+    preamble: CString,
     renamed: Vec<Renamed>,
     warnings: Vec<Diagnostic>,
 }
 
 impl<'a> Submitted<'a> {
     pub fn new(stage: Stage, source: &'a Source, interface: &'a LinkedInterface) -> Self {
-        let (text, warning) = concessions::with_lookups_of_today(text::prepared(source), source);
-        Self { stage, source, interface, text, renamed: Vec::new(), warnings: warning.into_iter().collect() }
+        let old_lookups::Renewed { text, preamble, warning } = old_lookups::renewed(text::prepared(source), source);
+        let (preamble, warnings) = (text::c_text(&preamble), warning.into_iter().collect());
+        Self { stage, source, interface, text, preamble, renamed: Vec::new(), warnings }
     }
 
     /// A text of it as the compiler reads it.
-    fn as_stage<'t>(&self, text: &'t CStr) -> StageText<'t> {
-        StageText { version: self.source.implied_version(), ..StageText::plain(self.stage, text) }
+    fn as_stage<'t>(&'t self, text: &'t CStr) -> StageText<'t> {
+        let Self { stage, ref preamble, .. } = *self;
+        StageText { stage, text, preamble, version: self.source.implied_version() }
     }
 
     /// Changes the text for what the compiler minds and drivers take; whether there was anything of the kind.
@@ -65,7 +69,7 @@ impl<'a> Submitted<'a> {
 
     /// SPIR-V of a text that the first pass accepts.
     pub fn second_pass(&self) -> Result<Vec<u32>, Fault> {
-        super::second_pass(self.stage, &self.text, &self.renamed, self.source.version())
+        super::second_pass(self.stage, &self.text, &self.preamble, &self.renamed, self.source.version())
     }
 }
 

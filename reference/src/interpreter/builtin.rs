@@ -3,7 +3,7 @@
 mod arithmetic;
 mod bits;
 mod geometry;
-mod lookup;
+pub(super) mod lookup;
 mod table;
 mod variable;
 

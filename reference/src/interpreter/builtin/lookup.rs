@@ -30,6 +30,44 @@ const NAMES: [&str; 18] = [
     "textureQueryLevels",
 ];
 
+/// Names of old GLSL (GLSL 1.20, section 8.7), in which the shape of the texture stands: the name, the lookup of today that it is, and
+/// the shape.
+const OLD_NAMES: [(&str, &str, Dimension); 22] = [
+    ("texture1D", "texture", Dimension::One),
+    ("texture1DLod", "textureLod", Dimension::One),
+    ("texture1DProj", "textureProj", Dimension::One),
+    ("texture1DProjLod", "textureProjLod", Dimension::One),
+    ("texture2D", "texture", Dimension::Two),
+    ("texture2DLod", "textureLod", Dimension::Two),
+    ("texture2DProj", "textureProj", Dimension::Two),
+    ("texture2DProjLod", "textureProjLod", Dimension::Two),
+    ("texture3D", "texture", Dimension::Three),
+    ("texture3DLod", "textureLod", Dimension::Three),
+    ("texture3DProj", "textureProj", Dimension::Three),
+    ("texture3DProjLod", "textureProjLod", Dimension::Three),
+    ("textureCube", "texture", Dimension::Cube),
+    ("textureCubeLod", "textureLod", Dimension::Cube),
+    ("shadow1D", "texture", Dimension::One),
+    ("shadow1DLod", "textureLod", Dimension::One),
+    ("shadow1DProj", "textureProj", Dimension::One),
+    ("shadow1DProjLod", "textureProjLod", Dimension::One),
+    ("shadow2D", "texture", Dimension::Two),
+    ("shadow2DLod", "textureLod", Dimension::Two),
+    ("shadow2DProj", "textureProj", Dimension::Two),
+    ("shadow2DProjLod", "textureProjLod", Dimension::Two),
+];
+
+/// The lookup of today that one of old GLSL is; none where there is none of the same kind.
+pub fn lookup_of_today(name: &str) -> Option<&'static str> {
+    OLD_NAMES.iter().find(|(old, ..)| *old == name).map(|(_, today, _)| *today)
+}
+
+/// Whether a function reads texels.
+pub fn is_lookup(name: &str) -> bool {
+    let is_question = matches!(name, "textureSize" | "textureQueryLevels");
+    !is_question && (NAMES.contains(&name) || lookup_of_today(name).is_some())
+}
+
 /// What a function's name says.
 struct LookupForm {
     projected: bool,
@@ -89,6 +127,17 @@ fn coordinates(sampler: Sampler) -> u8 {
 pub fn signatures(table: &mut HashMap<&'static str, Vec<Signature>>) {
     for name in NAMES {
         let all = samplers().into_iter().flat_map(|sampler| of_sampler(name, sampler));
+        table.entry(name).or_default().extend(all);
+    }
+    for (name, today, dimension) in OLD_NAMES {
+        let is_of_name = |sampler: &Sampler| {
+            let is_shadow = name.starts_with("shadow");
+            sampler.dimension == dimension && sampler.shadow == is_shadow && !sampler.array
+        };
+        let all = samplers().into_iter().filter(is_of_name).filter(|sampler| sampler.texel == Scalar::Float);
+        // What compares gave a vector.
+        let with_vector = |signature| Signature { result: Type::Vector(Scalar::Float, 4), ..signature };
+        let all = all.flat_map(|sampler| of_sampler(today, sampler)).map(with_vector);
         table.entry(name).or_default().extend(all);
     }
 }
@@ -194,8 +243,12 @@ impl BuiltinCall<'_> {
                 self.mode(&mut query, &mut rest, &form, zero);
             }
         }
+        let is_one_number = sampler.shadow && self.name.starts_with("shadow");
+        if is_one_number {
+            query.to.truncate(1);
+        }
         builder.push(Node::Texture(Box::new(query)));
-        Ok(to)
+        Ok(if is_one_number { vec![to[0]; to.len()] } else { to })
     }
 
     fn mode(&self, query: &mut Query, rest: &mut impl Iterator<Item = Vec<Slot>>, form: &LookupForm, zero: Slot) {

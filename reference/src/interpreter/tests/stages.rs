@@ -106,6 +106,25 @@ fn shadows_are_compared() {
 }
 
 #[test]
+fn lookups_of_old_glsl_are_those_of_today() {
+    let texture = |compare| {
+        let mut texture = Texture::two_dimensional(2, 1, vec![[0.25; 4], [0.75; 4]]);
+        (texture.compare, texture.wrap) = (compare, [Wrap::ClampToEdge; 3]);
+        texture
+    };
+    let program = fragment(
+        "uniform sampler2D t; uniform sampler2DShadow s; in vec3 q; out vec4 a, b; void main() {\n\
+        a = vec4(texture2D(t, q.xy).r, texture2DProj(t, vec3(q.xy, 1.0)).r, texture2DProj(t, vec4(q, 1.0) * 2.0).r, texture2DLod(t, q.xy, 0.0).r);\n\
+        b = vec4(shadow2D(s, q).rgb, shadow2DProj(s, vec4(q, 1.0) * 2.0).a); }",
+    );
+    let textures = [texture(None), texture(Some(Compare::LessOrEqual))];
+    let run = program.run(2).uniform("t", &[0.0]).expect("t").uniform("s", &[1.0]).expect("s").textures(&textures);
+    let outputs = run.input("q", &[&[0.25, 0.75], &[0.5, 0.5], &[0.5, 0.5]]).expect("q").outputs().expect("an end");
+    assert_eq!([0, 1].map(|at| outputs.outputs[0].sample(at)), [[0.25; 4], [0.75; 4]]);
+    assert_eq!([0, 1].map(|at| outputs.outputs[1].sample(at)), [[0.0; 4], [1.0; 4]]);
+}
+
+#[test]
 fn built_in_variables_are_inputs_and_outputs() {
     let program = fragment(
         "out vec4 result; void main() { result = vec4(gl_FragCoord.xy, gl_FrontFacing ? 1.0 : 0.0, gl_PointCoord.x); gl_FragDepth = gl_FragCoord.z; }",
