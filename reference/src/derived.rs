@@ -23,6 +23,9 @@ use programs::Screen;
 /// What the id of a derived mistake begins with.
 pub const PREFIX: &str = "derived-";
 
+/// What stands for a definition in the id of a mistake that is in none.
+const RESULT: &str = "result";
+
 /// The seed of the probes at which forms are told apart.
 const SEED: u64 = 6;
 
@@ -148,10 +151,10 @@ fn differs(a: f64, b: f64) -> bool {
 
 impl Assignment {
     /// What is said of a mistake, and what it costs, where it is known by what makes the text right: the operator that a student
-    /// slipped by, and the definition that it is in, where it is one. `is_bound_by_zero`: a bound of 0 is concerned.
+    /// slipped by, and the definition that it is in, where it is one, or the variable that a line is about. `is_bound_by_zero`: a bound of 0 is concerned.
     pub fn repaired(&self, operator: Operator, definition: Option<&str>, is_bound_by_zero: bool) -> Mistake {
-        let definition = definition.and_then(|name| self.equation.index(name));
-        wording::of_repair(self, operator, definition, is_bound_by_zero)
+        let is_known = |name: &&str| self.equation.index(name).is_some() || self.lines_about(name).next().is_some();
+        wording::of_repair(self, operator, definition.filter(is_known), is_bound_by_zero)
     }
 
     /// The homework with its derived mistakes. They are made when they are first asked for.

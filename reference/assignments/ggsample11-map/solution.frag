@@ -14,7 +14,8 @@ layout (location = 0) out vec4 fc;
 
 void main()
 {
-    vec3 q = ps.xyz / ps.w * 0.5 + 0.5;
+    vec3 ndc = ps.xyz / ps.w;
+    vec3 q = ndc * 0.5 + 0.5;
     float lit = texture(depth, q);
     fc = iamb + (idiff + ispec) * lit;
 }

@@ -23,7 +23,8 @@ float share(vec3 place)
 
 void main()
 {
-    vec3 q = ps.xyz / ps.w * 0.5 + 0.5;
+    vec3 ndc = ps.xyz / ps.w;
+    vec3 q = ndc * 0.5 + 0.5;
     float lit = share(q);
     fc = iamb + (idiff + ispec) * lit;
 }

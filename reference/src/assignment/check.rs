@@ -24,6 +24,7 @@ use crate::interpreter::Texture;
 use crate::manifest::{self, Manifest};
 use crate::mistake::Mistake;
 use crate::text::both;
+use crate::together::has_name;
 use solution::CheckedSolution;
 use std::collections::HashSet;
 use std::sync::{Arc, OnceLock};
@@ -63,7 +64,8 @@ pub(super) fn assignment(
     host::is_known(&files, solution.why_whole())?;
     passes::pass(&m, &textures, &mut scene, &interface, &read, place_at)?;
     let constants = constants::constants(&files, std::mem::take(&mut m.constant))?;
-    let lines = rubric(&mut m.rubric, &solution)?;
+    let texts: Vec<&str> = files.iter().map(|file| file.solution.text.as_str()).collect();
+    let lines = rubric(&mut m.rubric, &solution, &texts)?;
     for constant in &constants {
         known_line(&lines, &constant.line, &format!("constant `{}`", constant.name))?;
     }
@@ -194,7 +196,11 @@ fn gradual(m: &Manifest, mistakes: &[Mistake], place_at: &dyn Fn(usize) -> Strin
     Ok(Some(Gradual { abrupt: known(&entry.abrupt)?, uneven: known(&entry.uneven)? }))
 }
 
-fn rubric(lines: &mut [manifest::RubricLine], solution: &CheckedSolution<'_>) -> CheckResult<HashSet<String>> {
+fn rubric(
+    lines: &mut [manifest::RubricLine],
+    solution: &CheckedSolution<'_>,
+    texts: &[&str],
+) -> CheckResult<HashSet<String>> {
     if lines.len() > MAX_LINES {
         return Err(error("rubric", both("has more than 64 lines", "64 行を超えています")));
     }
@@ -208,6 +214,17 @@ fn rubric(lines: &mut [manifest::RubricLine], solution: &CheckedSolution<'_>) ->
         line.judges = solution.name(judged).to_owned();
         for number in &line.numbers {
             solution.definition(number, &|| format!("{place}, `numbers`"))?;
+        }
+        if let Some(name) = line.variables.iter().find(|name| !texts.iter().any(|text| has_name(text, name))) {
+            return Err(error(
+                place,
+                both(
+                    format!(
+                        "is about `{name}`, which the solution does not have: write the name of one of its variables"
+                    ),
+                    format!("`{name}` は解答例にありません。解答例の変数名を書いてください"),
+                ),
+            ));
         }
         if !line.points.is_finite() || line.points <= 0.0 {
             return Err(error(

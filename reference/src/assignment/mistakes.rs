@@ -34,6 +34,11 @@ impl Assignment {
         self.rubric.iter().any(|line| self.keeps(a, line) < 1.0 && self.keeps(b, line) < 1.0)
     }
 
+    /// The lines of the rubric that are about a variable of the solution; none where no line says so.
+    pub fn lines_about<'a>(&'a self, variable: &'a str) -> impl Iterator<Item = &'a RubricLine> {
+        self.rubric.iter().filter(move |line| line.variables.iter().any(|own| own == variable))
+    }
+
     /// Whether what a form replaces shows in the term that the line judges: before it, or in what becomes of it. What is no
     /// term of the colour is the mistake's own affair.
     pub(crate) fn reaches(&self, form: &MistakeForm, line: &RubricLine) -> bool {

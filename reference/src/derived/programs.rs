@@ -1,6 +1,6 @@
 //! Slips of which each is a program of its own: of solutions that are no lists of definitions, and of functions beside `main`.
 
-use super::{Derived, wording};
+use super::{Derived, RESULT, definition, wording};
 use crate::Assignment;
 use crate::accepted::{AcceptedAnswer, Computed};
 use crate::assignment::RubricLine;
@@ -31,7 +31,7 @@ pub(super) fn mistakes(assignment: &Assignment) -> Vec<Mistake> {
         let slips = program_slips(&file.solution.text, Stage::from(file.stage), &is_part).unwrap_or_default();
         for slip in slips {
             let Some(answer) = assignment.linked_with(file, slip.program.clone(), &slip.text) else { continue };
-            let name = slip.name.clone().unwrap_or_else(|| "result".into());
+            let name = slip.name.clone().unwrap_or_else(|| RESULT.into());
             grouped.entry((slip.operator, name)).or_default().push((slip, answer));
         }
     }
@@ -95,6 +95,10 @@ impl Derived {
 
     /// Whether a line is touched by a program: it is not where what it judges shows by itself, and is right there.
     pub(super) fn program_touches(&self, found: &FoundMistake, line: &RubricLine) -> bool {
+        let mut about = definition(&found.id).into_iter().flat_map(|name| self.assignment.lines_about(name)).peekable();
+        if about.peek().is_some() && !self.assignment.judges_position(line) {
+            return about.any(|own| own.id == line.id);
+        }
         let probes = self.judging.get_or_init(|| self.assignment.judging_probes());
         let Some(shown) = self.shown(found, probes) else { return true };
         let pairs = || probes.iter().zip(&shown);

@@ -1,6 +1,6 @@
 //! What is said of a derived mistake: made from its operator, and from what the lecture or the student calls the quantity.
 
-use super::{OperatorText, PREFIX, operator_of};
+use super::{OperatorText, PREFIX, RESULT, operator_of};
 use crate::assignment::RubricLine;
 use crate::interpreter::{DefinitionSlip, Operator, ProgramSlip};
 use crate::mistake::{Alternative, Condition, Mistake};
@@ -32,7 +32,7 @@ pub(super) fn mistake(
 
 /// A mistake without its variants, which are those of the slips.
 pub(super) fn of_program(assignment: &Assignment, operator: Operator, name: &str, slips: &[ProgramSlip]) -> Mistake {
-    let quantity = DefinitionName::of_program(assignment);
+    let quantity = DefinitionName::of_program(assignment, name);
     let said = operator_of(operator);
     let part = Text {
         en: format!("a value in {}", quantity.named.en),
@@ -47,14 +47,14 @@ pub(super) fn of_program(assignment: &Assignment, operator: Operator, name: &str
 pub(super) fn of_repair(
     assignment: &Assignment,
     operator: Operator,
-    definition: Option<usize>,
+    name: Option<&str>,
     is_bound_by_zero: bool,
 ) -> Mistake {
-    let quantity = definition.map_or_else(
-        || DefinitionName::of_program(assignment),
-        |definition| DefinitionName::of(assignment, definition),
-    );
-    let name = definition.map_or("result", |definition| &assignment.equation.definitions[definition].name);
+    let name = name.unwrap_or(RESULT);
+    let quantity = match assignment.equation.index(name) {
+        Some(definition) => DefinitionName::of(assignment, definition),
+        None => DefinitionName::of_program(assignment, name),
+    };
     let said = operator_of(operator);
     let only = alternative(0, said, &quantity, &quantity.named, is_bound_by_zero);
     let mistake = blank(assignment, said, name, quantity.seen());
@@ -135,18 +135,21 @@ impl DefinitionName {
         }
     }
 
-    /// What a program computes of which nothing is told apart.
-    fn of_program(assignment: &Assignment) -> Self {
-        let plain = match &assignment.rubric[..] {
-            [line] => part_called(line),
-            _ => Text { en: "the result".into(), ja: "結果".into() },
+    /// A variable of a program of which nothing is told apart but by the lines of the rubric that are about it.
+    fn of_program(assignment: &Assignment, name: &str) -> Self {
+        let about: Vec<&RubricLine> = assignment.lines_about(name).collect();
+        let only = match (&about[..], &assignment.rubric[..]) {
+            ([line], _) => Some(*line),
+            (_, [line]) => Some(line),
+            _ => None,
         };
+        let plain = only.map_or_else(|| Text { en: "the result".into(), ja: "結果".into() }, part_called);
         // The student's own name for what is computed there.
         let named = Text {
             en: format!("{}⟨ (here `{{name}}`)⟩", plain.en),
             ja: format!("{}⟨（ここでは `{{name}}`）⟩", plain.ja),
         };
-        Self { named, plain, is_known: true, is_everything: assignment.rubric.len() > 1 }
+        Self { named, plain, is_known: true, is_everything: only.is_none() }
     }
 
     fn seen(&self) -> Text {

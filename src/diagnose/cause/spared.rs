@@ -2,6 +2,7 @@
 
 use crate::diagnose::inside::{self, Finding};
 use crate::diagnose::{Evidence, addends};
+use reference::Assignment;
 use reference::assignment::RubricLine;
 use reference::derived::is_derived;
 use reference::equation::Reads;
@@ -10,8 +11,13 @@ use reference::mistake::FoundMistake;
 
 /// The judgements; right are also the terms that no place of a mistake has to do with: with the right values in these places,
 /// everything is right.
-pub fn beside(evidence: &Evidence<'_>, terms: Vec<TermJudgement>, findings: &[Finding]) -> Vec<TermJudgement> {
+pub fn beside(evidence: &Evidence<'_>, mut terms: Vec<TermJudgement>, findings: &[Finding]) -> Vec<TermJudgement> {
     let assignment = evidence.assignment;
+    if let Some(right) = elsewhere(assignment, findings) {
+        terms.retain(|term| !right.contains(&term.line));
+        terms.extend(right.iter().map(|line| TermJudgement::right(line, evidence.samples.len())));
+        return terms;
+    }
     let is_touched = |term: &TermJudgement| {
         let line = assignment.rubric.iter().find(|line| line.id == term.line);
         line.is_some_and(|line| findings.iter().any(|finding| finding.touches.contains(&line.judges)))
@@ -33,6 +39,19 @@ pub fn beside(evidence: &Evidence<'_>, terms: Vec<TermJudgement>, findings: &[Fi
         true => term.clone(),
     });
     spared.collect()
+}
+
+/// The ids of the lines that are about other variables of the solution than those in which places of mistakes were found; none where
+/// a place is all that is seen, or in none that a line is about.
+fn elsewhere(assignment: &Assignment, findings: &[Finding]) -> Option<Vec<String>> {
+    let serves = |finding: &Finding| finding.serves.clone().filter(|_| !finding.is_whole);
+    let names: Vec<String> = findings.iter().map(serves).collect::<Option<_>>()?;
+    if names.is_empty() || !names.iter().all(|name| assignment.lines_about(name).next().is_some()) {
+        return None;
+    }
+    let is_wrong = |line: &RubricLine| line.variables.iter().any(|name| names.contains(name));
+    let right = assignment.rubric.iter().filter(|line| !line.variables.is_empty() && !is_wrong(line));
+    Some(right.map(|line| line.id.clone()).collect())
 }
 
 /// The ids of the lines that derived mistakes cost nothing, for the text computes what they judge; none where these are all.

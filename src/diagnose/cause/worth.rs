@@ -5,7 +5,7 @@ use crate::diagnose::inside::Repaired;
 use crate::diagnose::{CONSTANTS_CHANGED, POSITION_CHANGED};
 use reference::Assignment;
 use reference::assignment::RubricLine;
-use reference::derived::is_derived;
+use reference::derived::{definition, is_derived};
 use reference::fit::{FeatureDefect, FeatureExplanation, TermJudgement};
 
 /// What is said of a feature.
@@ -46,9 +46,14 @@ pub fn kept(assignment: &Assignment, line: &RubricLine, shape: bool, cause: &Cau
     if is_touched { assignment.mistake(id).map_or(1.0, |mistake| mistake.keeps(&line.id)) } else { 1.0 }
 }
 
-/// The lines that a repaired mistake costs points: those of which it spoils what they judge, but for terms that are right by
-/// themselves. Where it spoils none of these, such as a sum, all that are not right.
+/// The lines that a repaired mistake costs points: those that are about the variable that it is in; else those of which it spoils what
+/// they judge, but for terms that are right by themselves. Where it spoils none of these, such as a sum, all that are not right.
 pub(super) fn charged(assignment: &Assignment, terms: &[TermJudgement], repaired: &Repaired) -> Vec<String> {
+    let about = definition(&repaired.mistake.id).into_iter().flat_map(|name| assignment.lines_about(name));
+    let about: Vec<String> = about.map(|line| line.id.clone()).collect();
+    if !about.is_empty() {
+        return about;
+    }
     let is_wrong = |line: &&RubricLine| terms.iter().any(|term| term.line == line.id && !term.is_right());
     let is_spoilt = |line: &&RubricLine| repaired.touches.contains(&line.judges);
     let is_colour = |line: &&RubricLine| !assignment.judges_position(line);
