@@ -20,7 +20,7 @@ mod views;
 pub use alternatives::Alternatives;
 pub use derived::explain_derived;
 pub use factor::judge_factor;
-pub use features::{FEWEST, Footprints, JudgedLine, ProbeChannel, alike, judge_features, program_of};
+pub use features::{FEWEST, Footprints, JudgedLine, ProbeChannel, alike, judge_features, programs_showing};
 pub use parts::{FeatureDefect, FeatureExplanation, explain_parts};
 pub use programs::programs_of;
 pub use terms::{TermJudgement, Worst};

@@ -9,15 +9,15 @@ use crate::mistake::FoundMistake;
 use crate::probes::{Probe, ProbeSet};
 use glam::{DVec3, DVec4};
 
-/// The first mistake whose program shows what the samples show, in colour and, as far as it is known, in place.
+/// The mistakes whose programs show what the samples show, in colour and, as far as it is known, in place; in the assignment's order.
 ///
 /// `is_there`: whether a sample's position is a given one.
-pub fn program_of(
+pub fn programs_showing(
     alternatives: &Alternatives<'_>,
     samples: &[[f64; 3]],
     is_there: &dyn Fn(usize, DVec4) -> bool,
     tolerance: f64,
-) -> Option<FoundMistake> {
+) -> Vec<FoundMistake> {
     let samples = super::padded(alternatives.probes, samples);
     let shows = |computed: &[Computed]| {
         computed.iter().zip(&samples).enumerate().all(|(place, ((colour, position), sample))| {
@@ -25,8 +25,8 @@ pub fn program_of(
         })
     };
     // A number is taken from the text.
-    let mut programs = alternatives.programs().filter(|(found, ..)| found.parameter.is_none());
-    programs.find(|(_, _, computed)| shows(computed)).map(|(found, ..)| found.clone())
+    let programs = alternatives.programs().filter(|(found, ..)| found.parameter.is_none());
+    programs.filter(|(_, _, computed)| shows(computed)).map(|(found, ..)| found.clone()).collect()
 }
 
 /// A channel at a probe: their places.

@@ -14,7 +14,7 @@ use reference::Assignment;
 use reference::equation::{DISCARDED, Reads};
 use reference::fit::{
     Alternatives, Fit, MOST_MISTAKES, TermJudgement, explain_derived, explain_parts, is_right, judge_factor,
-    judge_features, judge_terms, program_of, programs_of,
+    judge_features, judge_terms, programs_of, programs_showing,
 };
 use reference::mistake::FoundMistake;
 use reference::probes::ProbeSet;
@@ -35,9 +35,11 @@ pub(in crate::diagnose) fn cause(evidence: &Evidence<'_>, shape: bool) -> Cause 
         return Cause::known(found);
     }
     let alternatives = Alternatives::new(assignment, probes);
-    let program = || program_of(&alternatives, &samples, &is_there(evidence), COLOUR_TOLERANCE);
-    if let Some(found) = (!(all_right && shape)).then(program).flatten() {
-        return Cause::known(vec![found]);
+    let programs = || programs_showing(&alternatives, &samples, &is_there(evidence), COLOUR_TOLERANCE);
+    let shown = if all_right && shape { Vec::new() } else { programs() };
+    if let Some(found) = shown.first() {
+        let by_text = told_by_text(evidence, &alternatives, &samples, &shown);
+        return by_text.unwrap_or_else(|| Cause::known(vec![found.clone()]));
     }
     if all_right {
         // Right at every probe and in place, but not in the frames: the course's own poses are treated apart.
@@ -101,6 +103,38 @@ pub(in crate::diagnose) fn cause(evidence: &Evidence<'_>, shape: bool) -> Cause 
     }
 }
 
+/// Whether a mistake costs more than half of all points: then whatever makes little of a right answer show may show the same.
+fn leaves_little(assignment: &Assignment, found: &FoundMistake) -> bool {
+    let kept: f64 = assignment.rubric.iter().map(|line| line.points * assignment.keeps(found, line)).sum();
+    2.0 * kept < assignment.max_score()
+}
+
+/// What the text says where what is seen says little: hardly anything is left of a right answer, or mistakes in different lines of the
+/// rubric show the same, such as that all lies in shadow. None where nothing that is seen comes from a texture, or the text says no
+/// more.
+fn told_by_text(
+    evidence: &Evidence<'_>,
+    alternatives: &Alternatives<'_>,
+    samples: &[[f64; 3]],
+    shown: &[FoundMistake],
+) -> Option<Cause> {
+    let assignment = evidence.assignment;
+    let first = shown.first()?;
+    let is_ambiguous = shown.iter().any(|other| !assignment.share_a_line(first, other));
+    let is_little = leaves_little(assignment, first);
+    if !(is_ambiguous || is_little) || !inside::looks_up(evidence) {
+        return None;
+    }
+    let (findings, repairs) = inside::account(evidence);
+    if let Ok([repaired]) = <[Repaired; 1]>::try_from(repairs) {
+        let lines = worth::charged(assignment, &[], &repaired);
+        return (!lines.is_empty()).then(|| Cause::Repaired(vec![(lines, repaired)]));
+    }
+    let terms = judge_features(alternatives, samples, COLOUR_TOLERANCE);
+    let terms = spared::beside(evidence, terms, &findings);
+    (!is_little).then_some(Cause::Unexplained { terms, findings })
+}
+
 /// What no known mistake explains: by the features, or else each term as far as it stands alone, or shows by itself.
 fn unexplained(
     evidence: &Evidence<'_>,
@@ -113,24 +147,28 @@ fn unexplained(
         return Cause::Unexplained { terms: listed.terms(evidence), findings: Vec::new() };
     }
     let parts = explain_parts(alternatives, samples, &is_there(evidence), COLOUR_TOLERANCE);
-    match parts {
-        Some(parts) if parts.found.is_empty() && parts.is_missing() => return Cause::Parts(parts),
-        parts => {
-            // What a lecturer wrote down says more than that a feature is missing.
-            let numbers = evidence.numbers();
-            if let Some(found) = programs_of(alternatives, samples, &numbers, &is_there(evidence), COLOUR_TOLERANCE) {
-                return Cause::known(found);
-            }
-            if let Some(parts) = parts {
-                return Cause::Parts(parts);
-            }
-        }
+    if let Some(parts) = parts.as_ref().filter(|parts| parts.found.is_empty() && parts.is_missing()) {
+        return Cause::Parts(parts.clone());
     }
-    // What the text itself becomes right by says more than a change of the solution that the text does not bear out.
-    let doubtful = match (!is_dark(evidence.samples)).then(|| derived(evidence, samples)).flatten() {
-        Some(cause) if !cause.is_contradicted(evidence) => return cause,
-        doubtful => doubtful,
+    // What a lecturer wrote down says more than that a feature is missing.
+    let numbers = evidence.numbers();
+    let pair = match programs_of(alternatives, samples, &numbers, &is_there(evidence), COLOUR_TOLERANCE) {
+        Some(found) if found.len() == 1 => return Cause::known(found),
+        found => found,
     };
+    if let (Some(parts), None) = (parts.as_ref().filter(|parts| parts.found.is_empty()), &pair) {
+        return Cause::Parts(parts.clone());
+    }
+    // What the text itself becomes right by says more than a change of the solution that the text does not bear out. One change says
+    // more than two mistakes.
+    let derived = (!is_dark(evidence.samples)).then(|| derived(evidence, samples)).flatten();
+    let derived = derived.filter(|cause| pair.is_none() && parts.is_none() || cause.ids().len() == 1);
+    if let Some(cause) = derived.filter(|cause| !cause.is_contradicted(evidence)) {
+        return cause;
+    }
+    if let Some(cause) = pair.map(Cause::known).or(parts.map(Cause::Parts)) {
+        return cause;
+    }
     let (findings, repairs) = inside::account(evidence);
     let terms = match judge_factor(assignment, probes, samples, COLOUR_TOLERANCE) {
         Some(terms) => terms,
@@ -146,7 +184,7 @@ fn unexplained(
     let repairs = repairs.into_iter().map(|repaired| (worth::charged(assignment, &wrong, &repaired), repaired));
     let repairs: Vec<(Vec<String>, Repaired)> = repairs.collect();
     if repairs.is_empty() || repairs.iter().any(|(lines, _)| lines.is_empty()) {
-        return doubtful.unwrap_or(Cause::Unexplained { terms, findings });
+        return Cause::Unexplained { terms, findings };
     }
     Cause::Repaired(repairs)
 }

@@ -5,8 +5,8 @@ use super::walk::{made_of, roots};
 use crate::diagnose::Evidence;
 use crate::diagnose::columns::is_constant;
 use crate::diagnose::trials::{FUEL_OF_TRACE, StageChanges, chosen, place};
-use reference::interpreter::Program;
 use reference::interpreter::trace::{Trace, What};
+use reference::interpreter::{Program, is_lookup};
 use reference::traced::{Bench, Place};
 use std::collections::BTreeSet;
 
@@ -29,6 +29,22 @@ pub(in crate::diagnose) fn ignores_all(evidence: &Evidence<'_>) -> bool {
     read.varying.is_empty() && !read.all.iter().any(is_uniform)
 }
 
+/// Whether all that is seen is made of what a texture holds.
+pub(in crate::diagnose) fn looks_up(evidence: &Evidence<'_>) -> bool {
+    let Some(theirs) = evidence.traced else { return false };
+    let places: Vec<Place<'_>> = chosen(evidence).iter().map(|at| place(evidence, *at)).collect();
+    let in_quads = theirs.needs_quads(evidence.assignment);
+    let bench = Bench::new(evidence.assignment, theirs, &places, in_quads, FUEL_OF_TRACE);
+    let traced = bench.and_then(|mut bench| bench.trace(&StageChanges::default()));
+    let Some((_, [_, Some(fragment)])) = traced.filter(|_| !places.is_empty()) else { return false };
+    let sites = theirs.stage(Stage::Fragment).sites();
+    let reads = |event: &usize| match &sites[fragment.events[*event].site].what {
+        What::Call(name) => is_lookup(name),
+        _ => false,
+    };
+    way(&fragment, &roots(&fragment)).iter().any(reads)
+}
+
 /// Variables that are read.
 struct Read {
     all: BTreeSet<String>,
@@ -40,8 +56,8 @@ struct Read {
 const NUMBERS: [&str; 6] =
     ["gl_VertexID", "gl_InstanceID", "gl_PrimitiveID", "gl_FragCoord", "gl_FrontFacing", "gl_PointCoord"];
 
-/// The variables that are read on the way of some events, also where it is decided whether something is computed.
-fn read_on_the_way(program: &Program, trace: &Trace, roots: &[usize]) -> Read {
+/// What some events are made of, and what decides whether it is computed.
+fn way(trace: &Trace, roots: &[usize]) -> BTreeSet<usize> {
     let mut way = BTreeSet::new();
     let mut open = roots.to_vec();
     while let Some(event) = open.pop() {
@@ -51,6 +67,12 @@ fn read_on_the_way(program: &Program, trace: &Trace, roots: &[usize]) -> Read {
             }
         }
     }
+    way
+}
+
+/// The variables that are read on the way of some events.
+fn read_on_the_way(program: &Program, trace: &Trace, roots: &[usize]) -> Read {
+    let way = way(trace, roots);
     let mut read = Read { all: BTreeSet::new(), varying: BTreeSet::new() };
     for event in way.into_iter().map(|number| &trace.events[number]) {
         let What::Read(name) = &program.sites()[event.site].what else { continue };

@@ -52,6 +52,14 @@ pub(super) struct Quantities {
     doings: [Vec<What>; 2],
 }
 
+impl Quantity {
+    /// Whether a value equals it where it is computed, and not by chance.
+    fn is_equal_to(&self, stage: Stage, event: &Event) -> bool {
+        let is_varying = self.stage == stage && !self.is_constant && !is_constant(&event.values);
+        is_varying && self.turns.iter().any(|turn| is_same(event, turn))
+    }
+}
+
 impl Quantities {
     pub fn of(solution: &TracedProgram, traces: [Option<Trace>; 2]) -> Self {
         let mut quantities =
@@ -146,13 +154,12 @@ impl Quantities {
 
     /// A right quantity that a value equals where it is computed, and not by chance.
     pub fn equal_to(&self, stage: Stage, event: &Event) -> Option<&Quantity> {
-        if is_constant(&event.values) {
-            return None;
-        }
-        let is_it = |own: &&Quantity| {
-            own.stage == stage && !own.is_constant && own.turns.iter().any(|turn| is_same(event, turn))
-        };
-        self.all.iter().find(is_it)
+        self.all.iter().find(|own| own.is_equal_to(stage, event))
+    }
+
+    /// Whether it equals one of several such quantities. A vector of length 1 is one, and the same normalised is another.
+    pub fn equals_any(&self, stage: Stage, event: &Event, is_one: impl Fn(&Quantity) -> bool) -> bool {
+        self.all.iter().any(|own| is_one(own) && own.is_equal_to(stage, event))
     }
 
     /// Whether a quantity is another one, clamped or made a unit vector: what is done to a value where it is computed, not

@@ -55,7 +55,7 @@ impl Search<'_, '_> {
             let Some(trace) = self.trace(stage) else { return false };
             let mut way = made_of(trace, &roots(trace)).into_iter();
             let is_it = |own: &Quantity| own.computed_in == of && is_it(own);
-            way.any(|event| self.quantities.equal_to(stage, &trace.events[event]).is_some_and(is_it))
+            way.any(|event| self.quantities.equals_any(stage, &trace.events[event], is_it))
         };
         let is_computed = |of: Stage| STAGES.into_iter().any(|stage| is_computed_in(stage, of));
         let stages: Vec<Stage> = STAGES.into_iter().filter(has_it).collect();

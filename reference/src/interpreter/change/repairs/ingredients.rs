@@ -11,6 +11,9 @@ use std::collections::HashSet;
 /// What is longer than this is not written by a slip.
 const LONGEST: usize = 300;
 
+/// Numbers that every answer may have: what makes no difference to a sum or a product, and where counting begins.
+const PLAIN: [f64; 2] = [0.0, 1.0];
+
 /// The values, functions and numbers of a right answer.
 #[derive(Debug, Default)]
 pub struct Ingredients {
@@ -60,6 +63,7 @@ impl Ingredients {
         found.values.retain(|value| known.insert(written(&value.expression)));
         let mut known = HashSet::new();
         found.wrappers.retain(|wrapper| known.insert((written(&wrapper.call), wrapper.hole)));
+        found.numbers.extend(PLAIN);
         found.numbers.sort_by(f64::total_cmp);
         found.numbers.dedup();
         found
