@@ -126,7 +126,9 @@ fn told_by_text(
         return None;
     }
     let (findings, repairs) = inside::account(evidence);
-    if let Ok([repaired]) = <[Repaired; 1]>::try_from(repairs) {
+    if let Ok([repaired]) = <[Repaired; 1]>::try_from(repairs)
+        && repaired.builds_on_the_text()
+    {
         let lines = worth::charged(assignment, &[], &repaired);
         return (!lines.is_empty()).then(|| Cause::Repaired(vec![(lines, repaired)]));
     }

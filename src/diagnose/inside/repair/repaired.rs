@@ -27,10 +27,39 @@ impl Repaired {
         is_same_place && !added.is_empty() && before.contains(added.as_str()) && !after.contains(added.as_str())
     }
 
+    /// Whether it changes what is written there, or puts one name in its place: else the student's text has nothing of what it
+    /// adds, and what was to be computed there is missing.
+    pub fn builds_on_the_text(&self) -> bool {
+        let [written, right] = self.texts.each_ref().map(|text| names(text));
+        let is_name = self.texts[1].chars().all(|c| c.is_alphanumeric() || c == '_' || c == '.');
+        is_name || right.is_empty() || right.iter().any(|name| written.contains(name))
+    }
+
     /// What a teacher is shown of it.
     pub fn shown(&self, evidence: &Evidence<'_>) -> report::Repair {
         let [written, right] = self.texts.clone();
         let file = evidence.text(self.located.stage).0.facts.name.clone();
         report::Repair { mistake: self.mistake.id.clone(), file, line: self.located.line, written, right }
+    }
+}
+
+/// The names of variables in a text, not those of functions, types and components.
+fn names(text: &str) -> Vec<&str> {
+    let is_part = |c: char| c.is_alphanumeric() || c == '_' || c == '.';
+    let words =
+        text.split(|c: char| !is_part(c)).filter(|word| word.starts_with(|c: char| c.is_alphabetic() || c == '_'));
+    let behind = |word: &str| text[word.as_ptr() as usize - text.as_ptr() as usize + word.len()..].trim_start();
+    let variables = words.filter(|word| !behind(word).starts_with('('));
+    variables.filter_map(|word| word.split('.').next()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::names;
+
+    #[test]
+    fn names_are_those_of_variables() {
+        assert_eq!(names("(texture(depth, ps.xyz / ps.w) * 0.5) + _a1"), ["depth", "ps", "ps", "_a1"]);
+        assert_eq!(names("vec3 (1e3, 0.5, 1.0)"), [""; 0]);
     }
 }
