@@ -79,10 +79,14 @@ impl Assignment {
         }
     }
 
-    /// The picture that an answer draws at a pose.
+    /// The picture that is right by an answer at a pose: what is not judged of it is left to the rasteriser.
     pub fn frame_of(&self, answer: &AcceptedAnswer, pose: &Pose) -> Frame {
-        let right = self.picture(pose, &answer.pipeline, VertexStage::Program(&answer.pipeline.vertex));
-        self.without_unjudged(pose, right)
+        self.without_unjudged(pose, self.drawn_by(answer, pose))
+    }
+
+    /// The picture that a program draws at a pose, right or wrong.
+    pub(crate) fn drawn_by(&self, program: &AcceptedAnswer, pose: &Pose) -> Frame {
+        self.picture(pose, &program.pipeline, VertexStage::Program(&program.pipeline.vertex))
     }
 
     /// Runs an answer on vertices, each with uniforms and attributes. What is undefined is not a number.

@@ -55,7 +55,7 @@ impl Assignment {
     /// The pictures of all poses by the solution without a feature. A term of a fragment stage is known at probes only.
     pub fn frames_without(&self, feature: &Feature) -> Option<Vec<Frame>> {
         match feature {
-            Feature::Program(program) => Some(self.at_all_poses(|pose| self.frame_of(program, pose))),
+            Feature::Program(program) => Some(self.at_all_poses(|pose| self.drawn_by(program, pose))),
             Feature::Term(form) => self.frames_of(&self.equation.right().with(form, f64::NAN)),
         }
     }
@@ -63,7 +63,7 @@ impl Assignment {
     /// The pictures of all poses with a mistake. What is another definition of a fragment stage is known at probes only.
     pub fn frames_with(&self, found: &FoundMistake) -> Option<Vec<Frame>> {
         match self.mistake(&found.id)?.program(found.form) {
-            Some(program) => Some(self.at_all_poses(|pose| self.frame_of(program, pose))),
+            Some(program) => Some(self.at_all_poses(|pose| self.drawn_by(program, pose))),
             None => self.frames_of(&self.variant(std::slice::from_ref(found))?),
         }
     }

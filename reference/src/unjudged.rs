@@ -46,3 +46,21 @@ impl Assignment {
         judged
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_mistake_is_seen_beside_what_is_not_judged() {
+        let assignment = crate::assignment("ggsample11-map").expect("it is built in");
+        let pose = assignment.scene.all_poses()[0];
+        let right = assignment.right_frame(&pose);
+        let program = assignment.mistake("no-shadow").and_then(|mistake| mistake.program(mistake.forms.len()));
+        let wrong = assignment.drawn_by(program.expect("a program"), &pose);
+        let lie = right.coverage.iter().zip(&wrong.coverage);
+        let judged = lie.map(|(a, b)| *a != Coverage::Silhouette && *b != Coverage::Silhouette);
+        let differs = right.pixels.iter().zip(&wrong.pixels).map(|(a, b)| (0..3).any(|c| a[c].abs_diff(b[c]) > PIXEL));
+        assert!(judged.zip(differs).filter(|both| *both == (true, true)).count() > 100);
+    }
+}

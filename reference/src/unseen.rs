@@ -91,7 +91,7 @@ impl Assignment {
     /// Whether a part shows in one of the right pictures. `differs` says whether two pictures do.
     pub fn is_pictured(&self, unseen: &UnseenPart, right: &[Frame], differs: &dyn Fn(&Frame, &Frame) -> bool) -> bool {
         let poses = self.scene.all_poses();
-        poses.iter().zip(right).any(|(pose, right)| differs(&self.frame_of(&unseen.without, pose), right))
+        poses.iter().zip(right).any(|(pose, right)| differs(&self.drawn_by(&unseen.without, pose), right))
     }
 
     /// The uniform that shows each of some parts when it has another value, and such a value: the nearest of the first one.
