@@ -165,9 +165,10 @@ fn unexplained(
     // more than two mistakes.
     let derived = (!is_dark(evidence.samples)).then(|| derived(evidence, samples)).flatten();
     let derived = derived.filter(|cause| pair.is_none() && parts.is_none() || cause.ids().len() == 1);
-    if let Some(cause) = derived.filter(|cause| !cause.is_contradicted(evidence)) {
-        return cause;
-    }
+    let doubtful = match derived {
+        Some(cause) if !cause.is_contradicted(evidence) => return cause,
+        doubtful => doubtful,
+    };
     if let Some(cause) = pair.map(Cause::known).or(parts.map(Cause::Parts)) {
         return cause;
     }
@@ -186,7 +187,7 @@ fn unexplained(
     let repairs = repairs.into_iter().map(|repaired| (worth::charged(assignment, &wrong, &repaired), repaired));
     let repairs: Vec<(Vec<String>, Repaired)> = repairs.collect();
     if repairs.is_empty() || repairs.iter().any(|(lines, _)| lines.is_empty()) {
-        return Cause::Unexplained { terms, findings };
+        return doubtful.unwrap_or(Cause::Unexplained { terms, findings });
     }
     Cause::Repaired(repairs)
 }
