@@ -150,7 +150,7 @@ fn uniforms_are_what_an_answer_is_right_with() {
     let renamed = |text: &str| text.replace("ms", "shadowMatrix");
     assert_eq!(taken(same, same), []);
     assert_eq!(taken(renamed, same), pairs(&[("shadowMatrix", "matrix-to-clip-space")]));
-    let projected = |text: &str| text.replace("ps.xyz / ps.w * 0.5 + 0.5", "ps.xyz / ps.w");
+    let projected = |text: &str| text.replace("ndc * 0.5 + 0.5", "ndc");
     assert_eq!(taken(renamed, projected), pairs(&[("shadowMatrix", "matrix-to-texture-space")]));
     let apart = |text: &str| text.replace("uniform mat4 ms;", "uniform mat4 m, vp;").replace("ms * pv", "vp * m * pv");
     assert_eq!(taken(apart, same), pairs(&[("m", "matrix-of-the-model"), ("vp", "matrix-of-the-light")]));
