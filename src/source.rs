@@ -287,7 +287,7 @@ impl Source {
 }
 
 /// The words of `code` with their byte offsets.
-fn words(code: &str) -> impl Iterator<Item = (usize, &str)> {
+pub(crate) fn words(code: &str) -> impl Iterator<Item = (usize, &str)> {
     let mut rest = 0;
     std::iter::from_fn(move || {
         let is_word = |c: char| c.is_ascii_alphanumeric() || c == '_';

@@ -5,7 +5,7 @@ use super::{spirv, text};
 use crate::diagnostic::{Diagnostic, DiagnosticStage};
 use crate::ffi::glslang::CompilerOutput;
 use crate::language::Text;
-use crate::source::Source;
+use crate::source::{self, Source};
 
 /// The version from which on `shared` is a keyword.
 const SHARED_VERSION: i32 = 430;
@@ -28,7 +28,7 @@ pub(super) struct Renamed {
 pub(super) fn in_own_names(outcome: &mut CompilerOutput, renamed: &[Renamed]) {
     for Renamed { own, ours } in renamed {
         for log in [&mut outcome.link_log].into_iter().chain(outcome.logs.iter_mut().map(|(_, log)| log)) {
-            let places: Vec<usize> = text::words(log).filter(|(_, word)| word == ours).map(|(at, _)| at).collect();
+            let places: Vec<usize> = source::words(log).filter(|(_, word)| word == ours).map(|(at, _)| at).collect();
             for at in places {
                 log.replace_range(at..at + ours.len(), own);
             }
@@ -98,10 +98,10 @@ impl Granted {
 
     /// Gives a name that the compiler keeps for itself another of the same length, unless the text has that too.
     fn rename(&mut self, name: &'static str, new: &'static str, is_name: impl Fn(&str, usize) -> bool) {
-        if text::words(&self.text).any(|(_, word)| word == new) {
+        if source::words(&self.text).any(|(_, word)| word == new) {
             return;
         }
-        let places: Vec<usize> = text::words(&self.text)
+        let places: Vec<usize> = source::words(&self.text)
             .filter(|&(at, word)| word == name && is_name(&self.text, at))
             .map(|(at, _)| at)
             .collect();

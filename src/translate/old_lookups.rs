@@ -1,9 +1,9 @@
 //! Texture lookups of GLSL 1.x, at which the compiler ends the process, and which drivers take up to GLSL 4.10.
 
-use super::{TranslationRefusal, portability, text, unsupported};
+use super::{TranslationRefusal, portability, unsupported};
 use crate::diagnostic::{Diagnostic, DiagnosticStage};
 use crate::language::Text;
-use crate::source::Source;
+use crate::source::{self, Source};
 use reference::interpreter::lookup_of_today;
 use std::collections::BTreeMap;
 
@@ -49,7 +49,7 @@ impl<'a> OldLookup<'a> {
             let is_behind_a_word = before.ends_with(|c: char| c.is_ascii_alphanumeric() || c == '_');
             before.ends_with("#define") || is_called(at, word) && is_behind_a_word && !before.ends_with("return")
         };
-        let old = || text::words(code).filter(|(_, word)| is_old(word));
+        let old = || source::words(code).filter(|(_, word)| is_old(word));
         let own: Vec<&str> = old().filter(|&(at, word)| is_own(at, word)).map(|(_, word)| word).collect();
         let foreign = old().filter(|&(at, word)| is_called(at, word) && !own.contains(&word));
         foreign.map(|(at, word)| Self { at, word, arguments: arguments(&code[at + word.len()..]) }).collect()

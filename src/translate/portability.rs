@@ -4,7 +4,7 @@ use super::strict::{CodeStatement, statements};
 use super::{LinkedInterface, text};
 use crate::diagnostic::{Diagnostic, DiagnosticStage};
 use crate::language::Text;
-use crate::source::Source;
+use crate::source::{self, Source};
 
 /// The first version of the core profile that drivers still have in common.
 const FIRST_COMMON_VERSION: i32 = 330;
@@ -43,7 +43,7 @@ fn directives<'a>(source: &'a Source, name: &'a str) -> impl Iterator<Item = Vec
         (start - line.len(), line)
     });
     lines.filter(|(_, line)| line.trim_start().starts_with('#')).filter_map(move |(start, line)| {
-        let words: Vec<_> = text::words(line).map(|(at, word)| (start + at, word)).collect();
+        let words: Vec<_> = source::words(line).map(|(at, word)| (start + at, word)).collect();
         (words.first()?.1 == name).then(|| words[1..].to_vec())
     })
 }

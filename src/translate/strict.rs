@@ -3,7 +3,7 @@
 use super::{LinkedInterface, text};
 use crate::diagnostic::{Diagnostic, DiagnosticStage};
 use crate::language::Text;
-use crate::source::Source;
+use crate::source::{self, Source};
 
 /// From this version on, a layout qualifier may be repeated.
 const FREE_LAYOUTS: i32 = 420;
@@ -85,7 +85,7 @@ pub(super) struct CodeStatement<'a> {
 pub(super) fn statements(code: &str) -> impl Iterator<Item = CodeStatement<'_>> {
     let mut start = 0;
     code.split_inclusive([';', '{', '}']).map(move |piece| {
-        let words = text::words(piece).map(|(at, word)| (start + at, word)).collect();
+        let words = source::words(piece).map(|(at, word)| (start + at, word)).collect();
         start += piece.len();
         CodeStatement { words }
     })

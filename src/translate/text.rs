@@ -103,18 +103,6 @@ fn pragmas(code: &str) -> Vec<Range<usize>> {
     found
 }
 
-/// The words of `code` with the bytes that they stand at.
-pub(super) fn words(code: &str) -> impl Iterator<Item = (usize, &str)> {
-    let is_word = |c: char| c.is_ascii_alphanumeric() || c == '_';
-    let mut rest = 0;
-    std::iter::from_fn(move || {
-        let start = rest + code[rest..].find(is_word)?;
-        let end = code[start..].find(|c| !is_word(c)).map_or(code.len(), |length| start + length);
-        rest = end;
-        Some((start, &code[start..end]))
-    })
-}
-
 /// The version that `#version` names; 110 where there is none (GLSL 4.10, section 3.3).
 pub(super) fn version(code: &str) -> i32 {
     source::declared_version(code).unwrap_or(source::DEFAULT_VERSION)
@@ -140,9 +128,9 @@ const FIRST_SPIRV_VERSION: i32 = 330;
 
 /// Makes `text`, which the first pass accepts with `preamble` before it, ready for SPIR-V.
 pub(super) fn for_spirv(text: &str, preamble: &CStr, version: i32, stage: Stage) -> ForSpirv {
-    let has_old_qualifiers = words(text).any(|(_, word)| word == "attribute" || word == "varying");
+    let has_old_qualifiers = source::words(text).any(|(_, word)| word == "attribute" || word == "varying");
     let mut bytes = text.as_bytes().to_vec();
-    for (at, word) in words(text).filter(|(_, word)| matches!(*word, "shared" | "packed")) {
+    for (at, word) in source::words(text).filter(|(_, word)| matches!(*word, "shared" | "packed")) {
         // Where the members of a block lie is nobody's business: no program fills it.
         if is_in_layout(text, at) {
             bytes[at..at + word.len()].copy_from_slice(b"std140");

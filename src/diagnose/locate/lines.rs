@@ -1,6 +1,6 @@
 //! What stands on a line of the student's file.
 
-use crate::source::Source;
+use crate::source::{self, Source};
 
 /// What is written on a line.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -28,8 +28,7 @@ impl Words {
 }
 
 fn words(text: &str) -> Vec<String> {
-    let is_word = |c: char| c.is_ascii_alphanumeric() || c == '_';
-    text.split(|c| !is_word(c)).filter(|word| !word.is_empty()).map(str::to_owned).collect()
+    source::words(text).map(|(_, word)| word.to_owned()).collect()
 }
 
 /// The name and the text of the macro that a line defines.

@@ -2,7 +2,7 @@
 
 use crate::diagnose::Evidence;
 use crate::diagnose::locate::Located;
-use crate::report;
+use crate::{report, source};
 use reference::mistake::Mistake;
 
 /// A change by which something becomes right.
@@ -45,12 +45,11 @@ impl Repaired {
 
 /// The names of variables in a text, not those of functions, types and components.
 fn names(text: &str) -> Vec<&str> {
-    let is_part = |c: char| c.is_alphanumeric() || c == '_' || c == '.';
-    let words =
-        text.split(|c: char| !is_part(c)).filter(|word| word.starts_with(|c: char| c.is_alphabetic() || c == '_'));
-    let behind = |word: &str| text[word.as_ptr() as usize - text.as_ptr() as usize + word.len()..].trim_start();
-    let variables = words.filter(|word| !behind(word).starts_with('('));
-    variables.filter_map(|word| word.split('.').next()).collect()
+    let is_variable = |&(at, word): &(usize, &str)| {
+        let is_number = word.starts_with(|c: char| c.is_ascii_digit());
+        !is_number && !text[..at].ends_with('.') && !text[at + word.len()..].trim_start().starts_with('(')
+    };
+    source::words(text).filter(is_variable).map(|(_, word)| word).collect()
 }
 
 #[cfg(test)]
