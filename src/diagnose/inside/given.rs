@@ -7,17 +7,12 @@ use crate::diagnose::columns::is_constant;
 use crate::diagnose::trials::{FUEL_OF_TRACE, StageChanges, chosen, place};
 use reference::interpreter::trace::{Trace, What};
 use reference::interpreter::{Program, is_lookup};
-use reference::traced::{Bench, Place};
+use reference::traced::{Bench, Place, TracedProgram};
 use std::collections::BTreeSet;
 
 /// Whether all that is seen is made of nothing that a program gives the shaders: of no attribute and of no uniform.
 pub(in crate::diagnose) fn ignores_all(evidence: &Evidence<'_>) -> bool {
-    let Some(theirs) = evidence.traced else { return false };
-    let places: Vec<Place<'_>> = chosen(evidence).iter().map(|at| place(evidence, *at)).collect();
-    let in_quads = theirs.needs_quads(evidence.assignment);
-    let bench = Bench::new(evidence.assignment, theirs, &places, in_quads, FUEL_OF_TRACE);
-    let traced = bench.and_then(|mut bench| bench.trace(&StageChanges::default()));
-    let Some((_, [vertex, Some(fragment)])) = traced.filter(|_| !places.is_empty()) else { return false };
+    let Some((theirs, [vertex, Some(fragment)])) = traced(evidence) else { return false };
     let uniforms = &evidence.assignment.interface.uniforms;
     let is_uniform = |name: &String| uniforms.iter().any(|own| own.path.split('.').next() == Some(name));
     let read = read_on_the_way(theirs.stage(Stage::Fragment), &fragment, &roots(&fragment));
@@ -29,20 +24,25 @@ pub(in crate::diagnose) fn ignores_all(evidence: &Evidence<'_>) -> bool {
     read.varying.is_empty() && !read.all.iter().any(is_uniform)
 }
 
-/// Whether all that is seen is made of what a texture holds.
+/// Whether something of what is seen is made of what a texture holds.
 pub(in crate::diagnose) fn looks_up(evidence: &Evidence<'_>) -> bool {
-    let Some(theirs) = evidence.traced else { return false };
-    let places: Vec<Place<'_>> = chosen(evidence).iter().map(|at| place(evidence, *at)).collect();
-    let in_quads = theirs.needs_quads(evidence.assignment);
-    let bench = Bench::new(evidence.assignment, theirs, &places, in_quads, FUEL_OF_TRACE);
-    let traced = bench.and_then(|mut bench| bench.trace(&StageChanges::default()));
-    let Some((_, [_, Some(fragment)])) = traced.filter(|_| !places.is_empty()) else { return false };
+    let Some((theirs, [_, Some(fragment)])) = traced(evidence) else { return false };
     let sites = theirs.stage(Stage::Fragment).sites();
     let reads = |event: &usize| match &sites[fragment.events[*event].site].what {
         What::Call(name) => is_lookup(name),
         _ => false,
     };
     way(&fragment, &roots(&fragment)).iter().any(reads)
+}
+
+/// The text of the stages, and their runs at some of the probes.
+fn traced<'e>(evidence: &Evidence<'e>) -> Option<(&'e TracedProgram, [Option<Trace>; 2])> {
+    let theirs = evidence.traced?;
+    let places: Vec<Place<'_>> = chosen(evidence).iter().map(|at| place(evidence, *at)).collect();
+    let in_quads = theirs.needs_quads(evidence.assignment);
+    let mut bench = Bench::new(evidence.assignment, theirs, &places, in_quads, FUEL_OF_TRACE)?;
+    let (_, traces) = bench.trace(&StageChanges::default())?;
+    (!places.is_empty()).then_some((theirs, traces))
 }
 
 /// Variables that are read.
