@@ -9,7 +9,8 @@ use crate::mistake::FoundMistake;
 use crate::probes::{Probe, ProbeSet};
 use glam::{DVec3, DVec4};
 
-/// The mistakes whose programs show what the samples show, in colour and, as far as it is known, in place; in the assignment's order.
+/// The mistakes whose programs show what the samples show, in colour and, as far as it is known, in place; in the assignment's order. Each program is
+/// run only when it is its turn.
 ///
 /// `is_there`: whether a sample's position is a given one.
 pub fn programs_showing(
@@ -17,16 +18,16 @@ pub fn programs_showing(
     samples: &[[f64; 3]],
     is_there: &dyn Fn(usize, DVec4) -> bool,
     tolerance: f64,
-) -> Vec<FoundMistake> {
+) -> impl Iterator<Item = FoundMistake> {
     let samples = super::padded(alternatives.probes, samples);
-    let shows = |computed: &[Computed]| {
+    let shows = move |computed: &[Computed]| {
         computed.iter().zip(&samples).enumerate().all(|(place, ((colour, position), sample))| {
             agrees(*colour, *sample, tolerance) && is_there(place, *position)
         })
     };
     // A number is taken from the text.
     let programs = alternatives.programs().filter(|(found, ..)| found.parameter.is_none());
-    programs.filter(|(_, _, computed)| shows(computed)).map(|(found, ..)| found.clone()).collect()
+    programs.filter(move |(_, _, computed)| shows(computed)).map(|(found, ..)| found.clone())
 }
 
 /// A channel at a probe: their places.

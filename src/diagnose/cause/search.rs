@@ -35,11 +35,13 @@ pub(in crate::diagnose) fn cause(evidence: &Evidence<'_>, shape: bool) -> Cause 
         return Cause::known(found);
     }
     let alternatives = Alternatives::new(assignment, probes);
-    let programs = || programs_showing(&alternatives, &samples, &is_there(evidence), COLOUR_TOLERANCE);
-    let shown = if all_right && shape { Vec::new() } else { programs() };
-    if let Some(found) = shown.first() {
-        let by_text = told_by_text(evidence, &alternatives, &samples, &shown);
-        return by_text.unwrap_or_else(|| Cause::known(vec![found.clone()]));
+    let is_there = is_there(evidence);
+    let mut shown = programs_showing(&alternatives, &samples, &is_there, COLOUR_TOLERANCE);
+    if !(all_right && shape)
+        && let Some(found) = shown.next()
+    {
+        let by_text = told_by_text(evidence, &alternatives, &samples, &found, shown);
+        return by_text.unwrap_or_else(|| Cause::known(vec![found]));
     }
     if all_right {
         // Right at every probe and in place, but not in the frames: the course's own poses are treated apart.
@@ -116,13 +118,14 @@ fn told_by_text(
     evidence: &Evidence<'_>,
     alternatives: &Alternatives<'_>,
     samples: &[[f64; 3]],
-    shown: &[FoundMistake],
+    first: &FoundMistake,
+    mut others: impl Iterator<Item = FoundMistake>,
 ) -> Option<Cause> {
     let assignment = evidence.assignment;
-    let first = shown.first()?;
-    let is_ambiguous = shown.iter().any(|other| !assignment.share_a_line(first, other));
     let is_little = leaves_little(assignment, first);
-    if !(is_ambiguous || is_little) || !inside::looks_up(evidence) {
+    // Each of the others is run to be compared: the dearest question comes last.
+    let mut is_ambiguous = || others.any(|other| !assignment.share_a_line(first, &other));
+    if !inside::looks_up(evidence) || !(is_little || is_ambiguous()) {
         return None;
     }
     let (findings, repairs) = inside::account(evidence);
@@ -148,19 +151,20 @@ fn unexplained(
     if let Some(listed) = Listed::of(evidence) {
         return Cause::Unexplained { terms: listed.terms(evidence), findings: Vec::new() };
     }
-    let parts = explain_parts(alternatives, samples, &is_there(evidence), COLOUR_TOLERANCE);
-    if let Some(parts) = parts.as_ref().filter(|parts| parts.found.is_empty() && parts.is_missing()) {
-        return Cause::Parts(parts.clone());
-    }
+    let parts = match explain_parts(alternatives, samples, &is_there(evidence), COLOUR_TOLERANCE) {
+        Some(parts) if parts.found.is_empty() && parts.is_missing() => return Cause::Parts(parts),
+        parts => parts,
+    };
     // What a lecturer wrote down says more than that a feature is missing.
     let numbers = evidence.numbers();
     let pair = match programs_of(alternatives, samples, &numbers, &is_there(evidence), COLOUR_TOLERANCE) {
         Some(found) if found.len() == 1 => return Cause::known(found),
         found => found,
     };
-    if let (Some(parts), None) = (parts.as_ref().filter(|parts| parts.found.is_empty()), &pair) {
-        return Cause::Parts(parts.clone());
-    }
+    let parts = match parts {
+        Some(parts) if parts.found.is_empty() && pair.is_none() => return Cause::Parts(parts),
+        parts => parts,
+    };
     // What the text itself becomes right by says more than a change of the solution that the text does not bear out. One change says
     // more than two mistakes.
     let derived = (!is_dark(evidence.samples)).then(|| derived(evidence, samples)).flatten();
