@@ -1,6 +1,5 @@
 //! What is a matter of taste: where a right answer may show this or that, nothing is judged.
 
-use crate::frames::VertexStage;
 use crate::probes::Probe;
 use crate::rasteriser::{Coverage, Frame};
 use crate::scene::Pose;
@@ -16,7 +15,7 @@ impl Assignment {
     /// The picture, but what one of the programs that are not judged shows otherwise is left to the rasteriser.
     pub(crate) fn without_unjudged(&self, pose: &Pose, mut right: Frame) -> Frame {
         for other in &self.unjudged {
-            let other = self.picture(pose, &other.pipeline, VertexStage::Program(&other.pipeline.vertex));
+            let other = self.drawn_by(other, pose);
             let pairs = right.pixels.iter().zip(&other.pixels).zip(&mut right.coverage);
             for ((own, other), coverage) in pairs {
                 if (0..3).any(|channel| own[channel].abs_diff(other[channel]) > PIXEL) {

@@ -98,8 +98,7 @@ impl Grader {
         // What one mistake explains is no mistake in another reading.
         let is_explained = matches!(by_solution.diagnosis.explanation.as_deref(), Some([_]));
         let others = self.accepted.iter().rev().filter_map(|(answer, expected)| {
-            let (frames, diagnosis) = read_as(answer, expected, evidence, rendering, is_explained)?;
-            Some((ReadHandIn { frames, diagnosis, own_values: None }, answer, expected))
+            Some((read_as(answer, expected, evidence, rendering, is_explained)?, answer, expected))
         });
         let points = |read: &ReadHandIn| read.diagnosis.points();
         let best = others.max_by(|(a, ..), (b, ..)| points(a).total_cmp(&points(b)));
@@ -123,15 +122,15 @@ impl Grader {
     }
 }
 
-/// The hand-in by an accepted answer: its frames and its diagnosis, where it agrees with that answer, or where the answer is
-/// a reading of the task and mistakes are looked for in it.
+/// The hand-in by an accepted answer, where it agrees with that answer, or where the answer is a reading of the task and
+/// mistakes are looked for in it. What it computes on its way is not looked up.
 fn read_as(
     answer: &AcceptedAnswer,
     expected: &[ExpectedFrame],
     evidence: &Evidence<'_>,
     rendering: &Rendering,
     is_explained: bool,
-) -> Option<(Vec<FrameResult>, Diagnosis)> {
+) -> Option<ReadHandIn> {
     let Evidence { assignment, probes, fresh, .. } = *evidence;
     let frames = compared(expected, rendering);
     let probes = assignment.probes_of(answer, probes);
@@ -150,7 +149,7 @@ fn read_as(
         file: evidence.source.facts.name.clone(),
         line: None,
     }));
-    Some((frames, diagnosis))
+    Some(ReadHandIn { frames, diagnosis, own_values: None })
 }
 
 /// What was drawn beside what is expected, frame by frame.
