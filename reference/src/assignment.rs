@@ -79,7 +79,8 @@ pub struct Assignment {
     /// What a right answer shows at a probe.
     pub regions: Vec<Region>,
     pub(crate) probing: Probing,
-    pub(crate) derived: OnceLock<Arc<Derived>>,
+    /// Made once for all that differ in nothing it is made of.
+    pub(crate) derived: Arc<OnceLock<Derived>>,
 }
 
 /// The mistakes that are told by the way of an answer across edges, by their ids.
@@ -258,9 +259,9 @@ impl Assignment {
             other.constants[place].value = value.clone();
             other.equation.constants[place].1 = value.clone();
         }
-        other.derived = OnceLock::new();
+        other.derived = Arc::default();
         if let Some(derived) = self.derived.get().and_then(|derived| derived.with_constants(changed)) {
-            let _ = other.derived.set(Arc::new(derived));
+            let _ = other.derived.set(derived);
         }
         Ok(other)
     }

@@ -50,7 +50,7 @@ impl Derived {
     pub(crate) fn of(assignment: &Assignment) -> Self {
         let first = assignment.mistakes.len();
         let mut derived = Self {
-            assignment: assignment.clone(),
+            assignment: Assignment { derived: Arc::default(), ..assignment.clone() },
             first,
             places: Vec::new(),
             terms: 0,
@@ -159,7 +159,7 @@ impl Assignment {
 
     /// The homework with its derived mistakes. They are made when they are first asked for.
     pub fn derived(&self) -> &Derived {
-        self.derived.get_or_init(|| Arc::new(Derived::of(self)))
+        self.derived.get_or_init(|| Derived::of(self))
     }
 }
 

@@ -27,7 +27,7 @@ use crate::text::both;
 use crate::together::has_name;
 use solution::CheckedSolution;
 use std::collections::HashSet;
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 use variants::Variants;
 
 /// What is said of features.
@@ -117,7 +117,7 @@ pub(super) fn assignment(
         advice,
         regions,
         probing,
-        derived: OnceLock::new(),
+        derived: Arc::default(),
     };
     probing::lobe_is_known(&assignment)?;
     answers::are_defined(&assignment)?;
