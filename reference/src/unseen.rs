@@ -45,7 +45,9 @@ impl Assignment {
         let mut unseen: Vec<UnseenPart> = Vec::new();
         for file in &self.files {
             let slips = program_without_parts(&file.solution.text, Stage::from(file.stage)).unwrap_or_default();
-            for slip in slips {
+            // Nothing in place of nothing is no change.
+            let is_zero = |text: &str| text.trim().parse() == Ok(0.0);
+            for slip in slips.into_iter().filter(|slip| !is_zero(&slip.part.own)) {
                 let Some(without) = self.linked_with(file, slip.program, &slip.text) else { continue };
                 let is_same = |places: &mut dyn Iterator<Item = usize>, shown: &[Computed]| {
                     places.zip(shown).all(|(place, shown)| same(&right(place), shown))

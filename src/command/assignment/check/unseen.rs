@@ -30,7 +30,7 @@ pub(super) fn say(said: CheckWording, assignment: &Assignment, probes: &ProbeSet
     let unseen: Vec<&UnseenPart> = unseen.iter().filter(|one| !assignment.is_pictured(one, right, &is_seen)).collect();
     let (named, more) = unseen.split_at(unseen.len().min(MOST));
     for (one, revealing) in named.iter().zip(assignment.revealing(named, probes)) {
-        said.note(&text(one, revealing.as_ref()));
+        said.note(&text(one, revealing.as_ref(), assignment.gradual.is_some()));
     }
     if !more.is_empty() {
         let more = more.len();
@@ -41,7 +41,8 @@ pub(super) fn say(said: CheckWording, assignment: &Assignment, probes: &ProbeSet
     }
 }
 
-fn text(unseen: &UnseenPart, revealing: Option<&Revealing>) -> Text {
+/// `by_course`: whether answers are judged by their way across edges as well.
+fn text(unseen: &UnseenPart, revealing: Option<&Revealing>, by_course: bool) -> Text {
     let UnseenPart { file, part: ChangedPart { lines: (line, _), own, instead }, .. } = unseen;
     let what = match instead {
         Some(instead) => {
@@ -68,15 +69,16 @@ fn text(unseen: &UnseenPart, revealing: Option<&Revealing>) -> Text {
             "計算のもとになる値を変えるか、それが現れるメッシュ、カメラ、テクスチャの [[scene]] を追加してください。不要なら解答から省いてください",
         ),
     };
+    let so = match by_course {
+        false => Text::new("an answer like that has full marks", "そう書いた答えも満点になります"),
+        true => Text::new(
+            "an answer like that is told only by its way across edges",
+            "そう書いた答えは、境目の変わり方だけで見分けられます",
+        ),
+    };
     Text::new(
-        format!(
-            "{file}:{line}: {} at no probe and in no frame, so an answer like that has full marks. {}",
-            what.en, hint.en
-        ),
-        format!(
-            "{file}:{line}: {}、検査点にも画像にも違いが出ないので、そう書いた答えも満点になります。{}",
-            what.ja, hint.ja
-        ),
+        format!("{file}:{line}: {} at no probe and in no frame, so {}. {}", what.en, so.en, hint.en),
+        format!("{file}:{line}: {}、検査点にも画像にも違いが出ないので、{}。{}", what.ja, so.ja, hint.ja),
     )
 }
 
