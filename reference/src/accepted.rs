@@ -4,7 +4,7 @@ use crate::assignment::HandedIn;
 use crate::equation::Reads;
 use crate::frames::VertexStage;
 use crate::interpreter::{Column, Program, Stage};
-use crate::pipeline::{Pipeline, columns, slices};
+use crate::pipeline::{Pipeline, UniformsOf, columns, slices};
 use crate::probes::ProbeSet;
 use crate::rasteriser::Frame;
 use crate::scene::Pose;
@@ -95,13 +95,6 @@ impl Assignment {
     }
 
     fn computed(&self, program: &Program, given: &[(&[Value], &[Value])]) -> Option<Vec<Computed>> {
-        let names = self.interface.uniforms.iter().map(|uniform| &uniform.path).enumerate();
-        let uniforms: Vec<_> = names
-            .filter_map(|(place, name)| {
-                let own = program.uniforms().iter().find(|own| own.name == *name)?;
-                Some((name, columns(own, given.iter().map(|(uniforms, _)| &uniforms[place]))))
-            })
-            .collect();
         let names = self.interface.inputs.iter().map(|input| &input.name).enumerate();
         let attributes: Vec<_> = names
             .filter_map(|(place, name)| {
@@ -109,10 +102,8 @@ impl Assignment {
                 Some((name, columns(own, given.iter().map(|(_, attributes)| &attributes[place]))))
             })
             .collect();
-        let mut run = program.run(given.len());
-        for (name, columns) in &uniforms {
-            run = run.uniform_of_each(name, &slices(columns)).ok()?;
-        }
+        let uniforms: Vec<&[Value]> = given.iter().map(|(uniforms, _)| *uniforms).collect();
+        let mut run = self.fed(program, given.len(), UniformsOf::Each(&uniforms))?;
         for (name, columns) in &attributes {
             run = run.input(name, &slices(columns)).ok()?;
         }

@@ -7,7 +7,8 @@ pub use bounds::Bounds;
 pub use expression::FeedExpression;
 
 use crate::Value;
-use crate::interpreter::{Scalar, Type};
+use crate::interpreter::{ProgramVariable, Scalar, Type};
+use crate::pipeline::{LACKING, columns};
 use crate::scene::{Matrices, Moment, Vertex};
 use glam::{DMat4, DVec4};
 use schemars::JsonSchema;
@@ -170,6 +171,24 @@ impl Stream {
         let vector = attribute.at(vertex);
         let count = kind.slots().unwrap_or(0).min(4);
         Value::new(kind.clone(), vector.to_array()[..count].to_vec()).unwrap_or_else(|| Value::from(vector))
+    }
+
+    /// A column of the values at all vertices for each scalar of a program's input, which may have more or fewer than the attribute.
+    pub(crate) fn columns(&self, kind: &Type, input: &ProgramVariable, vertices: &[Vertex]) -> Vec<Vec<f64>> {
+        match self {
+            Self::Mesh(attribute) => {
+                let known = kind.slots().unwrap_or(0).min(4);
+                let scalar = |scalar: usize, vertex: &Vertex| match scalar {
+                    _ if scalar < known => attribute.at(vertex)[scalar],
+                    _ => LACKING.get(scalar).copied().unwrap_or(0.0),
+                };
+                let column = |number: usize| vertices.iter().map(|vertex| scalar(number, vertex)).collect();
+                (0..input.kind.slots().unwrap_or(0)).map(column).collect()
+            }
+            Self::Listed(values) => {
+                columns(input, vertices.iter().map(|vertex| &values[vertex.number as usize % values.len()]))
+            }
+        }
     }
 
     /// Whether an attribute of this type can hold it.

@@ -4,7 +4,7 @@ use crate::equation::{EquationVariant, Reads};
 use crate::feature::Feature;
 use crate::interpreter::{NotedLookup, Program, Texels};
 use crate::mistake::FoundMistake;
-use crate::pipeline::{Pipeline, ShadedVertices, positions, scalars};
+use crate::pipeline::{Pipeline, ShadedVertices, UniformsOf, positions, scalars};
 use crate::rasteriser::{ClipVertex, Frame, Surface, Visible};
 use crate::scene::{Instance, Pose};
 use crate::shading::{Scenery, ShadedDraw};
@@ -210,7 +210,7 @@ impl Assignment {
         let count = mesh.vertices.len();
         match stage {
             VertexStage::Program(program) => {
-                let Some(outputs) = self.run_vertices(program, uniforms, &mesh.vertices) else {
+                let Some(outputs) = self.run_vertices(program, UniformsOf::All(uniforms), &mesh.vertices) else {
                     return ShadedVertices {
                         positions: vec![DVec4::NAN; count],
                         varyings: vec![vec![f64::NAN; count]; pipeline.width()],

@@ -49,6 +49,13 @@ pub(crate) enum PassedChannel {
 }
 
 impl Pipeline {
+    /// Whether the same is handed over between the stages as between those of another one.
+    pub(crate) fn hands_over_as(&self, other: &Self) -> bool {
+        let way = |varying: &Varying| (varying.output, varying.interpolation);
+        let is_same = |own: &Varying| other.varyings.iter().any(|theirs| way(theirs) == way(own));
+        Arc::ptr_eq(&self.vertex, &other.vertex) && self.varyings.iter().all(is_same)
+    }
+
     /// Links two stages. `colour`: the output that is seen; without it, the one at location 0, or else the first.
     ///
     /// # Errors
@@ -146,7 +153,7 @@ pub(crate) struct ShadedVertices {
 }
 
 /// What an attribute has where less is given.
-const LACKING: [f64; 4] = [0.0, 0.0, 0.0, 1.0];
+pub(crate) const LACKING: [f64; 4] = [0.0, 0.0, 0.0, 1.0];
 
 /// A column of all samples for each scalar of a variable.
 pub(crate) fn columns<'v>(variable: &ProgramVariable, values: impl Iterator<Item = &'v Value>) -> Vec<Vec<f64>> {
@@ -165,20 +172,47 @@ pub(crate) fn slices(columns: &[Vec<f64>]) -> Vec<&[f64]> {
     columns.iter().map(Vec::as_slice).collect()
 }
 
+/// The values of all uniforms, in the interface's order, at each of some samples.
+#[derive(Clone, Copy)]
+pub(crate) enum UniformsOf<'a> {
+    /// The same at all of them.
+    All(&'a [Value]),
+    /// Each has its own.
+    Each(&'a [&'a [Value]]),
+}
+
+impl<'a> UniformsOf<'a> {
+    /// The value of one uniform at all samples, or at each.
+    fn value(self, place: usize) -> Result<&'a Value, impl Iterator<Item = &'a Value>> {
+        let (first, all) = match self {
+            Self::All(values) => (values, &[][..]),
+            Self::Each(values) => (values[0], values),
+        };
+        let is_same = |own: &&[Value]| std::ptr::eq(*own, first) || own[place] == first[place];
+        if all.iter().all(is_same) { Ok(&first[place]) } else { Err(all.iter().map(move |own| &own[place])) }
+    }
+}
+
 impl Interface {
-    /// A run with uniforms in the interface's order, as far as the program has them, and textures.
+    /// A run with uniforms, as far as the program has them, and textures.
     fn fed<'a>(
         &self,
         program: &'a Program,
         samples: usize,
-        uniforms: &[Value],
+        uniforms: UniformsOf<'_>,
         textures: &'a [Texture],
     ) -> Option<Run<'a>> {
         let mut run = program.run(samples).textures(textures);
-        for (uniform, value) in self.uniforms.iter().zip(uniforms) {
-            if program.uniforms().iter().any(|own| own.name == uniform.path && own.kind == uniform.kind) {
-                run = run.uniform(&uniform.path, value.numbers()).ok()?;
-            }
+        if samples == 0 {
+            return Some(run);
+        }
+        for (place, uniform) in self.uniforms.iter().enumerate() {
+            let is_own = |own: &&ProgramVariable| own.name == uniform.path && own.kind == uniform.kind;
+            let Some(own) = program.uniforms().iter().find(is_own) else { continue };
+            run = match uniforms.value(place) {
+                Ok(value) => run.uniform(&uniform.path, value.numbers()).ok()?,
+                Err(values) => run.uniform_of_each(&uniform.path, columns(own, values)).ok()?,
+            };
         }
         Some(run)
     }
@@ -187,7 +221,7 @@ impl Interface {
     pub(crate) fn run_vertices(
         &self,
         program: &Program,
-        uniforms: &[Value],
+        uniforms: UniformsOf<'_>,
         vertices: &[Vertex],
         textures: &[Texture],
     ) -> Option<Outputs> {
@@ -196,10 +230,7 @@ impl Interface {
             let numbers = || vertices.iter().map(|vertex| f64::from(vertex.number)).collect();
             let own = self.inputs.iter().find(|own| own.name == input.name);
             let columns = match own {
-                Some(own) => {
-                    let values: Vec<Value> = vertices.iter().map(|v| own.stream.value(&own.kind, v)).collect();
-                    columns(input, values.iter())
-                }
+                Some(own) => own.stream.columns(&own.kind, input, vertices),
                 None if input.name == "gl_VertexID" => vec![numbers()],
                 None => continue,
             };
@@ -215,13 +246,18 @@ impl Interface {
 }
 
 impl Assignment {
-    /// A run with uniforms in the interface's order, as far as the program has them, and the textures.
-    pub(crate) fn fed<'a>(&'a self, program: &'a Program, samples: usize, uniforms: &[Value]) -> Option<Run<'a>> {
+    /// A run with uniforms, as far as the program has them, and the textures.
+    pub(crate) fn fed<'a>(&'a self, program: &'a Program, samples: usize, uniforms: UniformsOf<'_>) -> Option<Run<'a>> {
         self.interface.fed(program, samples, uniforms, &self.textures)
     }
 
     /// Runs a vertex stage on all vertices of a mesh.
-    pub(crate) fn run_vertices(&self, program: &Program, uniforms: &[Value], vertices: &[Vertex]) -> Option<Outputs> {
+    pub(crate) fn run_vertices(
+        &self,
+        program: &Program,
+        uniforms: UniformsOf<'_>,
+        vertices: &[Vertex],
+    ) -> Option<Outputs> {
         self.interface.run_vertices(program, uniforms, vertices, &self.textures)
     }
 }

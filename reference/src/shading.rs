@@ -3,7 +3,7 @@
 mod fragments;
 
 use crate::interpreter::{NotedLookup, Outputs, Program, UndefinedCause};
-use crate::pipeline::{PassedChannel, Pipeline, ShadedVertices, scalars, slices};
+use crate::pipeline::{PassedChannel, Pipeline, ShadedVertices, UniformsOf, scalars, slices};
 use crate::rasteriser::{Coverage, Frame, SILHOUETTE_DISTANCE, Setup, Visible, quantised};
 use crate::{Assignment, Value};
 use fragments::Fragment;
@@ -161,7 +161,7 @@ impl Scenery<'_> {
         let uniforms = &self.shapes[surface as usize].uniforms;
         let given = self.inputs(visible, program, fragments, moved);
         let slices: Vec<(&str, Vec<&[f64]>)> = given.iter().map(|(name, columns)| (*name, slices(columns))).collect();
-        let mut run = self.assignment.fed(program, fragments.len(), uniforms)?;
+        let mut run = self.assignment.fed(program, fragments.len(), UniformsOf::All(uniforms))?;
         for (name, columns) in &slices {
             run = run.input(name, columns).ok()?;
         }

@@ -71,8 +71,8 @@ fn probed(assignment: &Assignment, program: &Program) -> Result<(Vec<[DVec4; 2]>
     }
     for (name, columns) in &uniforms.0 {
         if program.uniforms().iter().any(|uniform| uniform.name == *name) {
-            let columns: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
-            run = run.uniform_of_each(name, &columns).map_err(|error| error.to_string())?;
+            let columns = columns.iter().map(Vec::as_slice);
+            run = run.uniform_of_each(name, columns).map_err(|error| error.to_string())?;
         }
     }
     let outputs = run.outputs().map_err(|stopped| format!("stopped at line {}", stopped.line))?;

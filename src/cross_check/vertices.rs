@@ -81,8 +81,7 @@ impl<'a> VertexColumns<'a> {
         }
         for (name, columns) in &self.uniforms {
             if program.uniforms().iter().any(|uniform| uniform.name == *name) {
-                let columns: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
-                run = run.uniform_of_each(name, &columns)?;
+                run = run.uniform_of_each(name, columns.iter().map(Vec::as_slice))?;
             }
         }
         Ok(run)

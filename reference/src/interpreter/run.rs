@@ -23,6 +23,7 @@ use super::code::{Code, ProgramVariable, Slot};
 use super::texture::Texture;
 use super::types::Type;
 use machine::Machine;
+use std::borrow::Cow;
 use std::fmt;
 
 /// Lanes that run together: enough that an instruction costs little, few enough that columns stay in the cache.
@@ -55,7 +56,7 @@ pub struct Run<'a> {
     code: &'a Code,
     samples: usize,
     uniforms: Vec<(Slot, f64)>,
-    inputs: Vec<(Slot, &'a [f64])>,
+    inputs: Vec<(Slot, Cow<'a, [f64]>)>,
     textures: &'a [Texture],
     precision: Precision,
     fuel: u64,
@@ -190,7 +191,7 @@ impl<'a> Run<'a> {
     pub fn input(mut self, name: &str, columns: &[&'a [f64]]) -> Result<Self, Mismatch> {
         let input = self.code.inputs.iter().find(|input| input.name == name);
         let input = input.ok_or_else(|| Mismatch(format!("there is no input {name}")))?;
-        self.columns(name, slots(input).collect(), columns)?;
+        self.columns(name, slots(input).collect(), columns.iter().copied())?;
         Ok(self)
     }
 
@@ -198,17 +199,27 @@ impl<'a> Run<'a> {
     ///
     /// # Errors
     /// As for [`Run::uniform`] and [`Run::input`].
-    pub fn uniform_of_each(mut self, path: &str, columns: &[&'a [f64]]) -> Result<Self, Mismatch> {
+    pub fn uniform_of_each<C: Into<Cow<'a, [f64]>>>(
+        mut self,
+        path: &str,
+        columns: impl IntoIterator<Item = C>,
+    ) -> Result<Self, Mismatch> {
         let slots: Vec<Slot> = leaves(&self.code.uniforms, path).flat_map(slots).collect();
         self.columns(path, slots, columns)?;
         Ok(self)
     }
 
-    fn columns(&mut self, name: &str, slots: Vec<Slot>, columns: &[&'a [f64]]) -> Result<(), Mismatch> {
+    fn columns<C: Into<Cow<'a, [f64]>>>(
+        &mut self,
+        name: &str,
+        slots: Vec<Slot>,
+        columns: impl IntoIterator<Item = C>,
+    ) -> Result<(), Mismatch> {
+        let columns: Vec<Cow<'a, [f64]>> = columns.into_iter().map(C::into).collect();
         if slots.len() != columns.len() || columns.iter().any(|column| column.len() != self.samples) {
             return Err(Mismatch(format!("{name} has {} scalars of {} samples", slots.len(), self.samples)));
         }
-        self.inputs.extend(slots.into_iter().zip(columns.iter().copied()));
+        self.inputs.extend(slots.into_iter().zip(columns));
         Ok(())
     }
 

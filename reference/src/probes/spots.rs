@@ -11,6 +11,7 @@ mod shown;
 
 use super::{Probe, ProbeGroup, ProbeSet, Random};
 use crate::equation::{Evaluation, Reads};
+use crate::pipeline::UniformsOf;
 use crate::scene::{Cull, Vertex};
 use crate::{Assignment, Value};
 pub use across::{Crossings, EdgeDefect};
@@ -214,7 +215,9 @@ impl Assignment {
         taken: FragmentChoice,
     ) -> Option<Vec<Probe>> {
         let located = self.located(drawn, some, taken)?;
-        let colours = self.colours(&self.pipeline, &drawn.uniforms, &located.spots, &located.handed, WAYS)?;
+        let spots: Vec<&Spot> = located.spots.iter().collect();
+        let uniforms = UniformsOf::All(&drawn.uniforms);
+        let colours = self.colours(&self.pipeline, uniforms, &spots, &located.handed, WAYS)?;
         let is_steady: Vec<bool> = colours.iter().map(|(_, is_steady)| *is_steady).collect();
         let probes = self.shown_in_place(group, drawn, located, colours.into_iter().map(|(colour, _)| colour));
         let known = probes
@@ -254,7 +257,7 @@ impl Assignment {
     fn located(&self, drawn: &ProbeGroup, some: Vec<FragmentCandidate>, taken: FragmentChoice) -> Option<LocatedSpots> {
         let pipeline = &self.pipeline;
         let vertices: Vec<Vertex> = some.iter().flat_map(|(corners, ..)| corners).copied().collect();
-        let (positions, written) = self.handed_by(&pipeline.vertex, &drawn.uniforms, &vertices)?;
+        let (positions, written) = self.handed_by(&pipeline.vertex, UniformsOf::All(&drawn.uniforms), &vertices)?;
         let mut spots = Vec::new();
         let mut shares = Vec::new();
         for (number, (corners, weights, cull)) in some.into_iter().enumerate() {

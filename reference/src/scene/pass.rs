@@ -4,7 +4,7 @@ use super::{Cull, DepthTest, Draw, Matrices, Moment, Pose, Scene, matrix};
 use crate::assignment::Interface;
 use crate::feed::FeedExpression;
 use crate::interpreter::Program;
-use crate::pipeline::positions;
+use crate::pipeline::{UniformsOf, positions};
 use crate::rasteriser::{Surface, depth_map};
 use glam::DMat4;
 use std::sync::Arc;
@@ -70,7 +70,8 @@ impl DepthPass {
                 let moment = Moment { matrices: Matrices::seen(model, view, projection), ..instance.moment };
                 let uniforms: Vec<_> = self.interface.uniforms.iter().map(|uniform| uniform.value(&moment)).collect();
                 let mesh = &instance.draw.mesh;
-                let outputs = self.interface.run_vertices(&pass.program, &uniforms, &mesh.vertices, &[])?;
+                let outputs =
+                    self.interface.run_vertices(&pass.program, UniformsOf::All(&uniforms), &mesh.vertices, &[])?;
                 Some((positions(&outputs, mesh.vertices.len()), &mesh.triangles))
             })
             .collect();

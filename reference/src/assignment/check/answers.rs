@@ -6,7 +6,7 @@ use crate::assignment::{MANIFEST, error};
 use crate::equation::Reads;
 use crate::frames::VertexStage;
 use crate::interpreter::{Program, Stage, UndefinedCause};
-use crate::pipeline::{Pipeline, positions, scalars};
+use crate::pipeline::{Pipeline, UniformsOf, positions, scalars};
 use crate::rasteriser::Frame;
 use crate::scene::Pose;
 use crate::text::both;
@@ -110,7 +110,7 @@ impl Assignment {
             let uniforms = self.uniform_values(&instance.moment);
             let vertices = &instance.draw.mesh.vertices;
             let some: Vec<_> = vertices.iter().step_by(vertices.len().div_ceil(each)).copied().collect();
-            let run = |program: &Program| self.run_vertices(program, &uniforms, &some);
+            let run = |program: &Program| self.run_vertices(program, UniformsOf::All(&uniforms), &some);
             let is_defined = match stage {
                 VertexStage::Equation(variant, _) => some.iter().all(|vertex| {
                     let outcome = variant.evaluate(&uniforms, &self.attribute_values(vertex));

@@ -1,7 +1,8 @@
 //! Rows of fragments across edges, in equal steps: what a right answer may show there in many ways is judged by its course.
 
-use super::{FragmentCandidate, FragmentChoice};
+use super::{FragmentCandidate, FragmentChoice, Spot};
 use crate::Assignment;
+use crate::pipeline::UniformsOf;
 use crate::probes::{Probe, ProbeGroup, ProbeSet, Random};
 use crate::scene::Vertex;
 use glam::{DVec3, DVec4, Vec4Swizzles};
@@ -148,7 +149,9 @@ impl Assignment {
         if located.spots.len() < STEPS {
             return None;
         }
-        let colours = self.colours(&self.pipeline, &drawn.uniforms, &located.spots, &located.handed, 1)?;
+        let spots: Vec<&Spot> = located.spots.iter().collect();
+        let uniforms = UniformsOf::All(&drawn.uniforms);
+        let colours = self.colours(&self.pipeline, uniforms, &spots, &located.handed, 1)?;
         let probes = self.shown_in_place(group, drawn, located, colours.into_iter().map(|(colour, _)| colour));
         let is_judged = self.are_judged(&drawn.uniforms, &probes);
         let judged: Vec<usize> = (0..STEPS).filter(|step| is_judged[*step]).collect();

@@ -3,8 +3,8 @@
 use super::Spot;
 use crate::equation::DISCARDED;
 use crate::interpreter::{Interpolation, Program, Scalar};
-use crate::pipeline::{Pipeline, positions, scalars, slices};
-use crate::probes::{Probe, ProbeGroup, ProbeSet};
+use crate::pipeline::{Pipeline, UniformsOf, positions, scalars, slices};
+use crate::probes::{Probe, ProbeSet};
 use crate::scene::Vertex;
 use crate::{Assignment, Value};
 use glam::{DVec3, DVec4};
@@ -70,7 +70,7 @@ impl Assignment {
     pub(super) fn handed_by(
         &self,
         program: &Program,
-        uniforms: &[Value],
+        uniforms: UniformsOf<'_>,
         vertices: &[Vertex],
     ) -> Option<(Vec<DVec4>, FragmentInputs)> {
         let outputs = self.run_vertices(program, uniforms, vertices)?;
@@ -78,13 +78,13 @@ impl Assignment {
         Some((positions(&outputs, vertices.len()), written))
     }
 
-    /// The colours of fragments, and whether each is a number that stays when what it is computed from is moved a little, in so
-    /// many ways.
+    /// The colours of fragments, each with its uniforms, and whether each is a number that stays when what it is computed from is moved
+    /// a little, in so many ways.
     pub(super) fn colours(
         &self,
         pipeline: &Pipeline,
-        uniforms: &[Value],
-        spots: &[Spot],
+        uniforms: UniformsOf<'_>,
+        spots: &[&Spot],
         handed: &HandedAround,
         ways: usize,
     ) -> Option<Vec<(DVec3, bool)>> {
@@ -103,6 +103,11 @@ impl Assignment {
             }
         };
         let lanes: Vec<Lane> = (0..spots.len()).flat_map(of_spot).collect();
+        let own: Vec<&[Value]> = match uniforms {
+            UniformsOf::All(_) => Vec::new(),
+            UniformsOf::Each(own) => lanes.iter().map(|lane| own[lane.spot]).collect(),
+        };
+        let uniforms = if own.is_empty() { uniforms } else { UniformsOf::Each(&own) };
         let colours = self.run_lanes(pipeline, uniforms, spots, handed, &lanes)?;
         let each = (lanes.len() / spots.len().max(1)).max(1);
         let of_lanes = |(own, lanes): (&[DVec3], &[Lane])| {
@@ -118,8 +123,8 @@ impl Assignment {
     fn run_lanes(
         &self,
         pipeline: &Pipeline,
-        uniforms: &[Value],
-        spots: &[Spot],
+        uniforms: UniformsOf<'_>,
+        spots: &[&Spot],
         handed: &HandedAround,
         lanes: &[Lane],
     ) -> Option<Vec<DVec3>> {
@@ -198,36 +203,62 @@ impl Assignment {
         uniforms: &[Value],
         probes: &[Probe],
     ) -> Option<Vec<ProbeOutput>> {
-        self.shown_in(pipeline, uniforms, probes, 1)
+        self.shown_in(pipeline, [UniformsOf::All(uniforms); 2], probes, 1)
     }
 
+    /// All groups run at once: to begin a run costs as much as some dozens of probes.
     fn shown(&self, pipeline: &Pipeline, probes: &ProbeSet, ways: usize) -> Option<Vec<ProbeOutput>> {
-        let of_group = |(group, drawn): (usize, &ProbeGroup)| {
-            self.shown_in(pipeline, &drawn.uniforms, probes.of_group(group), ways)
-        };
-        let groups = probes.groups.iter().enumerate().map(of_group).collect::<Option<Vec<_>>>()?;
-        Some(groups.into_iter().flatten().collect())
+        let of_spots: Vec<&[Value]> =
+            probes.iter().filter(|probe| probe.spot.is_some()).map(|probe| probes.uniforms(probe)).collect();
+        let of_corners: Vec<&[Value]> = of_spots.iter().flat_map(|own| [*own; 3]).collect();
+        let uniforms = [UniformsOf::Each(&of_corners), UniformsOf::Each(&of_spots)];
+        self.shown_in(pipeline, uniforms, &probes.probes, ways)
     }
 
+    /// The uniforms are those of the corners, and of the fragments.
     fn shown_in(
         &self,
         pipeline: &Pipeline,
-        uniforms: &[Value],
+        [of_corners, of_spots]: [UniformsOf<'_>; 2],
         probes: &[Probe],
         ways: usize,
     ) -> Option<Vec<ProbeOutput>> {
-        let spots: Vec<Spot> = probes.iter().filter_map(|probe| probe.spot.as_deref().cloned()).collect();
+        let spots: Vec<&Spot> = probes.iter().filter_map(|probe| probe.spot.as_deref()).collect();
+        if pipeline.hands_over_as(&self.pipeline) {
+            let colours = self.colours(pipeline, of_spots, &spots, &known(pipeline, &spots), ways)?;
+            let shown = |(probe, (colour, is_steady)): (&Probe, (DVec3, bool))| ProbeOutput {
+                colour,
+                position: self.equation.position.map_or(DVec4::W, |_| probe.position),
+                is_steady,
+            };
+            return Some(probes.iter().filter(|probe| probe.spot.is_some()).zip(colours).map(shown).collect());
+        }
         let vertices: Vec<Vertex> = spots.iter().flat_map(|spot| spot.corners).collect();
-        let (positions, written) = self.handed_by(&pipeline.vertex, uniforms, &vertices)?;
-        let all: Vec<&Spot> = spots.iter().collect();
-        let handed = handed_at(pipeline, &written, &positions, &all, pipeline.has_derivatives());
-        let colours = self.colours(pipeline, uniforms, &spots, &handed, ways)?;
+        let (positions, written) = self.handed_by(&pipeline.vertex, of_corners, &vertices)?;
+        let handed = handed_at(pipeline, &written, &positions, &spots, pipeline.has_derivatives());
+        let colours = self.colours(pipeline, of_spots, &spots, &handed, ways)?;
         let shown = |(spot, (colour, is_steady))| {
             let position = self.equation.position.map_or(DVec4::W, |_| positions[3 * spot]);
             ProbeOutput { colour, position, is_steady }
         };
         Some(colours.into_iter().enumerate().map(shown).collect())
     }
+}
+
+/// What the right vertex stage hands over at fragments, and at the pixels beside them where somebody looks at these.
+fn known(pipeline: &Pipeline, spots: &[&Spot]) -> HandedAround {
+    let at = |values: &dyn Fn(&Spot) -> &[(String, Value)]| -> FragmentInputs {
+        let scalar = |output: usize, scalar: usize| {
+            spots.iter().map(|spot| values(spot)[output].1.numbers()[scalar]).collect::<Vec<f64>>()
+        };
+        let outputs = pipeline.vertex.outputs().iter().map(|output| output.kind.slots().unwrap_or(0)).enumerate();
+        outputs.map(|(output, count)| (0..count).map(|number| scalar(output, number)).collect()).collect()
+    };
+    let beside = |pixel: usize| match pipeline.has_derivatives() {
+        true => at(&|spot| &spot.varyings_beside[pixel]),
+        false => FragmentInputs::new(),
+    };
+    [at(&|spot| &spot.varyings), beside(0), beside(1)]
 }
 
 /// What is interpolated at fragments, and at the pixels beside them where somebody looks at these. `positions`: those of the corners,
