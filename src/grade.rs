@@ -92,6 +92,11 @@ impl Grader {
         Self::new(Device::open(adapter)?, assignment, expected)
     }
 
+    /// What it grades.
+    pub fn assignment(&self) -> &Assignment {
+        &self.assignment
+    }
+
     /// A grader on an open device. `expected` are the assignment's right pictures, in the order of [`expected::frames`].
     pub fn new(device: Device, assignment: Arc<Assignment>, expected: Vec<ExpectedFrame>) -> Result<Self, Fault> {
         let interface = LinkedInterface::of(&assignment)?;

@@ -61,9 +61,9 @@ pub struct Settings {
     pub further: Vec<Arc<Assignment>>,
     /// The adapter that renders.
     pub adapter: AdapterKind,
-    /// Longest time for one submission.
+    /// Longest time for one submission to a homework that has the usual time, see [`Settings::deadline_of`].
     pub deadline: Duration,
-    /// Longest CPU time for one submission, over all threads of its worker; none is a second more than the deadline.
+    /// Longest CPU time for one such submission, over all threads of its worker; none is a second more than the deadline.
     pub cpu_seconds: Option<u64>,
     /// Most memory that one submission may take over what a warm worker takes, in bytes.
     pub memory: u64,
@@ -111,6 +111,11 @@ impl Settings {
     /// The same with a worker of its own for each submission.
     pub fn with_single_use_workers(self) -> Self {
         Self { gradings_per_worker: 1, ..self }
+    }
+
+    /// Longest time for one submission to a homework.
+    pub fn deadline_of(&self, assignment: &Assignment) -> Duration {
+        self.deadline.saturating_mul(assignment.time)
     }
 
     fn limits(&self) -> WorkerLimits {

@@ -78,6 +78,8 @@ pub struct Assignment {
     pub advice: Vec<Advice>,
     /// What a right answer shows at a probe.
     pub regions: Vec<Region>,
+    /// So many times as long as usual a hand-in may take.
+    pub time: u32,
     pub(crate) probing: Probing,
     /// Made once for all that differ in nothing it is made of.
     pub(crate) derived: Arc<OnceLock<Derived>>,

@@ -48,6 +48,10 @@ pub struct Manifest {
     pub title: Text,
     /// What there is to do.
     pub task: Option<Task>,
+    /// So many times as long as usual a hand-in may take.
+    #[schemars(with = "u32")]
+    #[serde(default)]
+    pub time: Option<Spanned<u32>>,
     /// What the lecture writes.
     pub equation: Option<Equation>,
     /// The files that are handed in.

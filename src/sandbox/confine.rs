@@ -120,9 +120,10 @@ pub(super) struct GradingMeter {
 }
 
 impl GradingMeter {
-    /// Gives the next file its own share of memory and CPU time; the size of the process beforehand.
-    pub fn next(&self, adapter: AdapterKind) -> io::Result<u64> {
-        self.give(self.limits, adapter)
+    /// Gives the next file its own share of memory and so many times the usual CPU time; the size of the process beforehand.
+    pub fn next(&self, adapter: AdapterKind, time: u32) -> io::Result<u64> {
+        let cpu_seconds = self.limits.cpu_seconds.saturating_mul(u64::from(time));
+        self.give(WorkerLimits { cpu_seconds, ..self.limits }, adapter)
     }
 
     /// Gives what comes next such a share.

@@ -134,7 +134,7 @@ impl Pool {
     }
 
     fn stopped(&self, submission: GradingTask<'_>, ending: &Ending, environment: Environment) -> Report {
-        let message = ending.message(self.settings.deadline, self.settings.memory);
+        let message = ending.message(self.settings.deadline_of(submission.assignment), self.settings.memory);
         crate::grade::unfinished(
             submission.assignment,
             crate::grade::sources(submission.assignment, submission.hand_in),
@@ -169,6 +169,10 @@ enum Attempted {
 }
 
 impl Grading<'_> {
+    fn deadline(&self) -> Duration {
+        self.pool.settings.deadline_of(self.submission.assignment)
+    }
+
     fn attempt(&mut self, wanted: WorkerKind) -> Result<Attempted, Fault> {
         let Pool { settings, next_id, .. } = self.pool;
         let mut worker = self.place.take(wanted)?;
@@ -190,7 +194,7 @@ impl Grading<'_> {
         let start = Instant::now();
         // Confirming a crash takes what it left of the deadline: no file has twice the time.
         let spent = self.blamed.as_ref().map_or(Duration::ZERO, |(_, began)| began.elapsed());
-        let deadline = settings.deadline.saturating_sub(spent);
+        let deadline = self.deadline().saturating_sub(spent);
         let answered = worker.grade(&request, hand_in, frames_bytes, deadline);
         let environment = worker.environment.clone();
         let ending = match answered {
@@ -240,9 +244,9 @@ impl Grading<'_> {
         environment: Environment,
     ) -> Result<Attempted, Fault> {
         if matches!(ending, Ending::Memory | Ending::Crash(_)) {
-            let Settings { deadline, memory, .. } = self.pool.settings;
+            let message = ending.message(self.deadline(), self.pool.settings.memory);
             // A file may have all the memory that it is promised: where it cannot, its end is none of its doing.
-            if let Some(shortage) = self.shortage(&ending.message(deadline, memory)) {
+            if let Some(shortage) = self.shortage(&message) {
                 return Err(shortage);
             }
         }
@@ -277,7 +281,7 @@ impl Grading<'_> {
     /// crash needs a second one, since any process can send its signal.
     fn is_certain(&self, ending: &Ending, was_fresh: bool, began: Instant) -> bool {
         let is_limit = was_fresh && !matches!(ending, Ending::Crash(_));
-        let is_late = began.elapsed() > self.pool.settings.deadline.mul_f64(1.0 - LEFT_TO_CONFIRM);
+        let is_late = began.elapsed() > self.deadline().mul_f64(1.0 - LEFT_TO_CONFIRM);
         is_limit || self.blamed.is_some() || is_late
     }
 }

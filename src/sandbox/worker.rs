@@ -51,7 +51,7 @@ pub fn attempt(job: WorkerTask, attempt: IntrusionAttempt) -> io::Result<io::Res
     on_large_stack(move || {
         let Confined { layers, meter, .. } = confined;
         let _ready = prepare(job, layers).map_err(|fault| io::Error::other(fault.message.en))?;
-        meter.next(job.adapter)?;
+        meter.next(job.adapter, 1)?;
         Ok(attempt.make())
     })
 }
@@ -168,7 +168,8 @@ impl ReadyWorker {
 
     /// Grades one submission.
     fn grade(&mut self, request: &GradingRequest, body: &[u8]) -> io::Result<()> {
-        self.meter.next(self.job.adapter)?;
+        let time = self.graders.get(&request.assignment).map_or(1, |grader| grader.assignment().time);
+        self.meter.next(self.job.adapter, time)?;
         let unread = || Fault::new(Text::verbatim("the assignment was not read"));
         let hand_in = request.hand_in(body)?;
         let grader = self.graders.get_mut(&request.assignment).ok_or_else(unread);

@@ -150,10 +150,10 @@ pub async fn upload(service: &Service, archive: &Path, teacher: &Teacher) -> Res
     drop(turn);
     let checked = checked.map_err(|panic| Problem::internal(&panic))?.map_err(|fault| Problem::of_fault(&fault))?;
     let CheckedFolder { folder, solution, handed_out } = checked.map_err(|why| refused(&why))?;
-    if let Some(why) = flaw(service, &solution, &handed_out) {
+    let assignment = loaded(folder).await.map_err(|why| refused(&why))?;
+    if let Some(why) = flaw(service.config.deadline * f64::from(assignment.time), &solution, &handed_out) {
         return Err(refused(&why));
     }
-    let assignment = loaded(folder).await.map_err(|why| refused(&why))?;
     teacher.check(&assignment.id)?;
     let uploaded = UploadedFolder {
         id: new_id(),
@@ -170,9 +170,8 @@ pub async fn upload(service: &Service, archive: &Path, teacher: &Teacher) -> Res
     service.store.folder_of_digest(&uploaded.digest).await?.ok_or_else(Problem::not_found)
 }
 
-/// What is wrong with a folder that is read and drawn: `ggrade assignment check` holds it to the same.
-fn flaw(service: &Service, solution: &Report, handed_out: &Report) -> Option<Text> {
-    let deadline = service.config.deadline;
+/// What is wrong with a folder that is read and drawn: `ggrade assignment check` holds it to the same. A hand-in has `deadline` seconds.
+fn flaw(deadline: f64, solution: &Report, handed_out: &Report) -> Option<Text> {
     if solution.verdict != Verdict::Correct {
         let Text { en, ja } = scored(solution);
         return Some(Text::new(
@@ -184,10 +183,11 @@ fn flaw(service: &Service, solution: &Report, handed_out: &Report) -> Option<Tex
         let took = solution.elapsed_ms / 1e3;
         return Some(Text::new(
             format!(
-                "its own solution took {took:.1} s, and a hand-in has {deadline} s: draw fewer poses or a smaller window"
+                "its own solution took {took:.1} s, and a hand-in has {deadline} s: draw fewer poses or a smaller window, or write a \
+                 longer `time`"
             ),
             format!(
-                "付属の解答の採点に {took:.1} 秒かかりました。提出物の制限は {deadline} 秒です。ポーズを減らすか、ウィンドウを小さくしてください"
+                "付属の解答の採点に {took:.1} 秒かかりました。提出物の制限は {deadline} 秒です。ポーズを減らすか、ウィンドウを小さくするか、`time` を大きくしてください"
             ),
         ));
     }

@@ -3,6 +3,8 @@
 use super::workers::{Impostor, alone, children, grade, honest, is_running, say, words};
 use ggrade::report::Verdict;
 use ggrade::sandbox::{Pool, Settings};
+use reference::Assignment;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// Half of what the impostors would keep the grading waiting: what is answered before was not waited for. A busy machine
@@ -24,6 +26,20 @@ fn the_deadline_ends_a_worker_that_says_nothing() {
     drop(pool);
     assert_eq!(children(), []);
     assert!(!is_running("sleep 6007"), "the whole group ends, not the worker alone");
+}
+
+#[test]
+fn a_homework_may_give_more_time() {
+    let _alone = alone();
+    let silent = Impostor::new("hello \"$@\"; head -c 1 >/dev/null; sleep 60");
+    let settings = silent.settings();
+    let mut assignment = Assignment::clone(&settings.assignment);
+    assignment.time = 3;
+    let settings = Settings { deadline: Duration::from_millis(500), assignment: Arc::new(assignment), ..settings };
+    let pool = Pool::start(settings, 1).unwrap();
+    let report = grade(&pool, &honest()).unwrap().report;
+    assert!(report.elapsed_ms >= 1500.0, "{}", report.elapsed_ms);
+    assert!(words(&report).contains("within 1.5 s (time limit)"), "{}", words(&report));
 }
 
 #[test]

@@ -84,6 +84,7 @@ pub(super) fn assignment(
         mistakes.retain(|mistake| mistake.id != OF_FRAGMENTS);
     }
     let gradual = gradual(&m, &mistakes, place_at)?;
+    let time = m.time.as_ref().map_or(Ok(1), |entry| time(entry, place_at))?;
     let probing = probing::probing(&m.probes, &constants, &solution)?;
     let regions = probing::regions(std::mem::take(&mut m.region), &mut solution, &m.rubric, place_at)?;
     let advice = std::mem::take(&mut m.advice).into_iter();
@@ -116,6 +117,7 @@ pub(super) fn assignment(
         mistakes,
         advice,
         regions,
+        time,
         probing,
         derived: Arc::default(),
     };
@@ -165,6 +167,23 @@ fn programs(
         variants.program(entry.get_ref(), &format!("{}, {key}", place_at(entry.span().start)))
     };
     listed.iter().map(program).collect()
+}
+
+/// No hand-in may take longer than this, in usual times.
+const MOST_TIME: u32 = 10;
+
+fn time(entry: &toml::Spanned<u32>, place_at: &dyn Fn(usize) -> String) -> CheckResult<u32> {
+    let time = *entry.get_ref();
+    if (1..=MOST_TIME).contains(&time) {
+        return Ok(time);
+    }
+    Err(error(
+        format!("{}, time", place_at(entry.span().start)),
+        both(
+            format!("is {time}: write how many times as long as usual a hand-in may take, from 1 to {MOST_TIME}"),
+            format!("{time} になっています。通常の何倍の時間を認めるかを、1 から {MOST_TIME} までで書いてください"),
+        ),
+    ))
 }
 
 /// The mistakes of what is not gradual. Edges are those of what a pass draws.

@@ -59,7 +59,7 @@ pub(super) fn run(arguments: &CheckArguments, language: Language) -> Result<Exit
     #[cfg(not(feature = "opengl"))]
     let is_drawn_alike = say_no_opengl(said);
     is_whole &= is_drawn_alike;
-    say_time(said, took, Settings::new(Arc::clone(&assignment)).deadline);
+    say_time(said, took, Settings::new(Arc::clone(&assignment)).deadline_of(&assignment));
     is_whole &= say_starter(said, &grade(&grade::handed_out(&assignment), "handed-out")?);
     is_whole &= shows::say(said, &assignment, &album)?;
     texts::say(said, &assignment);
@@ -107,12 +107,12 @@ fn say_time(said: CheckWording, took: Duration, deadline: Duration) {
     let (took, deadline) = (took.as_secs_f64(), deadline.as_secs_f64());
     said.note(&Text::new(
         format!(
-            "the solution took {took:.1} s on this machine, and a hand-in has {deadline} s: draw fewer poses or a smaller window, or grade \
-             with a longer --deadline"
+            "the solution took {took:.1} s on this machine, and a hand-in has {deadline} s: draw fewer poses or a smaller window, or \
+             write a longer `time`"
         ),
         format!(
             "このマシンで解答の採点に {took:.1} 秒かかりました。提出物の制限は {deadline} 秒です。ポーズを減らすかウィンドウを小さくする、\
-             または --deadline を延ばしてください"
+             または `time` を大きくしてください"
         ),
     ));
 }

@@ -251,3 +251,10 @@ fn a_pass_that_draws_nothing_is_named_with_what_to_try() {
     );
     assert!(refused(plain).en.contains("`compare` belongs to depths"));
 }
+
+#[test]
+fn a_homework_has_at_most_ten_times_the_usual_time() {
+    assert_eq!(assignment("ggsample11-pcf").expect("built in").time, 3, "as the homework that it extends");
+    let text = refused(changed(shadows(), MANIFEST, "time = 3", "time = 0"));
+    assert!(text.en.starts_with("assignment.toml, line 6, time: is 0: write how many times as long"), "{}", text.en);
+}
