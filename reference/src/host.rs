@@ -229,11 +229,10 @@ impl Assignment {
 
     /// Probes at which these uniforms are what the course's program has.
     pub fn probes_at_rest(&self, probes: &ProbeSet, uniforms: &[usize]) -> ProbeSet {
-        let mut theirs = probes.clone();
-        for group in &mut theirs.groups {
+        let theirs = probes.with_uniforms(|group| {
             let moment = self.moment_of(group);
             uniforms.iter().for_each(|place| group.uniforms[*place] = self.interface.uniforms[*place].value(&moment));
-        }
+        });
         self.reprobe(&theirs)
     }
 }

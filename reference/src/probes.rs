@@ -117,6 +117,15 @@ impl ProbeSet {
         self.probes.iter()
     }
 
+    /// The same probes with other uniforms.
+    pub(crate) fn with_uniforms(&self, change: impl FnMut(&mut ProbeGroup)) -> Self {
+        let mut other = self.clone();
+        other.groups.iter_mut().for_each(change);
+        let spots = other.probes.iter_mut().filter_map(|probe| probe.spot.as_deref_mut());
+        spots.for_each(|spot| spot.is_known = false);
+        other
+    }
+
     /// The uniforms of a probe, in the interface's order.
     pub fn uniforms(&self, probe: &Probe) -> &[Value] {
         &self.groups[probe.group].uniforms

@@ -131,9 +131,7 @@ impl Assignment {
 
 /// The same probes with another value of the uniform at this place.
 fn with_uniform(probes: &ProbeSet, place: usize, way: &UniformChange) -> ProbeSet {
-    let mut other = probes.clone();
-    other.groups.iter_mut().for_each(|group| group.uniforms[place] = way(&group.uniforms[place]));
-    other
+    probes.with_uniforms(|group| group.uniforms[place] = way(&group.uniforms[place]))
 }
 
 /// How a value is changed.

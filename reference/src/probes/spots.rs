@@ -61,6 +61,10 @@ pub struct Spot {
     pub varyings: Vec<(String, Value)>,
     /// The same at the pixel to the right and at the one above.
     pub varyings_beside: [Vec<(String, Value)>; 2],
+    /// Where it puts the first corner, in clip space.
+    pub(crate) position: DVec4,
+    /// Whether that is what it does with the uniforms of the probe.
+    pub(crate) is_known: bool,
 }
 
 /// A fragment before it is known whether it is seen: the corners of a triangle, a share for each, and which triangles are left out.
@@ -77,10 +81,9 @@ enum FragmentChoice {
     FrontInPlace,
 }
 
-/// Fragments that are seen, the position of the first corner of each, and what is handed over there.
+/// Fragments that are seen, and what is handed over there.
 struct LocatedSpots {
     spots: Vec<Spot>,
-    positions: Vec<DVec4>,
     handed: HandedAround,
 }
 
@@ -235,10 +238,10 @@ impl Assignment {
         located: LocatedSpots,
         colours: impl Iterator<Item = DVec3>,
     ) -> Vec<Probe> {
-        let LocatedSpots { spots, positions, handed } = located;
+        let LocatedSpots { spots, handed } = located;
         let right = self.equation.right();
-        let probe = |(((at, spot), position), shown): (((usize, Spot), DVec4), DVec3)| {
-            let attributes = self.read_at(at, &handed[0], shown, position);
+        let probe = |((at, spot), shown): ((usize, Spot), DVec3)| {
+            let attributes = self.read_at(at, &handed[0], shown, spot.position);
             let outcome: Evaluation<'_> = right.evaluate(&drawn.uniforms, &attributes);
             Probe {
                 group,
@@ -250,7 +253,7 @@ impl Assignment {
                 spot: Some(Box::new(spot)),
             }
         };
-        spots.into_iter().enumerate().zip(positions).zip(colours).map(probe).collect()
+        spots.into_iter().enumerate().zip(colours).map(probe).collect()
     }
 
     /// Those of these fragments that lie before the eye, and are not left out.
@@ -274,8 +277,17 @@ impl Assignment {
             }
             shares.push((number, [weights, weights_beside[0], weights_beside[1]]));
             let (varyings, varyings_beside) = Default::default();
-            let spot = Spot { corners, weights, weights_beside, place, is_front, varyings, varyings_beside };
-            spots.push((spot, ends[0]));
+            spots.push(Spot {
+                corners,
+                weights,
+                weights_beside,
+                place,
+                is_front,
+                varyings,
+                varyings_beside,
+                position: ends[0],
+                is_known: true,
+            });
         }
         let mut handed = [0, 1, 2].map(|pixel| {
             let shares: Vec<_> = shares.iter().map(|(number, weights)| (*number, weights[pixel])).collect();
@@ -283,7 +295,7 @@ impl Assignment {
         });
         let numbers = handed.iter_mut().flatten().flatten().flatten();
         numbers.for_each(|number| *number = f64::from(*number as f32));
-        for (at, (spot, _)) in spots.iter_mut().enumerate() {
+        for (at, spot) in spots.iter_mut().enumerate() {
             let [here, right, above] = &handed;
             let values = |handed: &FragmentInputs| -> Vec<(String, Value)> {
                 let value = |(output, columns): (&crate::interpreter::ProgramVariable, &Vec<Vec<f64>>)| {
@@ -294,8 +306,7 @@ impl Assignment {
             };
             (spot.varyings, spot.varyings_beside) = (values(here), [values(right), values(above)]);
         }
-        let (spots, positions): (Vec<Spot>, Vec<DVec4>) = spots.into_iter().unzip();
-        Some(LocatedSpots { spots, positions, handed })
+        Some(LocatedSpots { spots, handed })
     }
 
     /// What the equation reads at a fragment.

@@ -201,3 +201,10 @@ fn what_varies_is_seen_by_the_probes() {
         probes.groups.iter().map(|group| group.uniforms[place].numbers()[0] as i64).collect();
     assert!(tones.len() >= 4, "{tones:?}");
 }
+
+#[test]
+fn what_the_right_vertex_stage_hands_over_changes_with_the_uniforms() {
+    let assignment = assignment("ggsample11-pcf").expect("built in");
+    // With an expectation that does not follow the uniforms each of these would be called idle.
+    assert_eq!(assignment.idle_uniforms(&assignment.judging_probes()), Vec::<&str>::new());
+}

@@ -224,14 +224,14 @@ impl Assignment {
         ways: usize,
     ) -> Option<Vec<ProbeOutput>> {
         let spots: Vec<&Spot> = probes.iter().filter_map(|probe| probe.spot.as_deref()).collect();
-        if pipeline.hands_over_as(&self.pipeline) {
+        if pipeline.hands_over_as(&self.pipeline) && spots.iter().all(|spot| spot.is_known) {
             let colours = self.colours(pipeline, of_spots, &spots, &known(pipeline, &spots), ways)?;
-            let shown = |(probe, (colour, is_steady)): (&Probe, (DVec3, bool))| ProbeOutput {
+            let shown = |(spot, (colour, is_steady)): (&&Spot, (DVec3, bool))| ProbeOutput {
                 colour,
-                position: self.equation.position.map_or(DVec4::W, |_| probe.position),
+                position: self.equation.position.map_or(DVec4::W, |_| spot.position),
                 is_steady,
             };
-            return Some(probes.iter().filter(|probe| probe.spot.is_some()).zip(colours).map(shown).collect());
+            return Some(spots.iter().zip(colours).map(shown).collect());
         }
         let vertices: Vec<Vertex> = spots.iter().flat_map(|spot| spot.corners).collect();
         let (positions, written) = self.handed_by(&pipeline.vertex, of_corners, &vertices)?;
