@@ -72,8 +72,8 @@ fn text(unseen: &UnseenPart, revealing: Option<&Revealing>, by_course: bool) -> 
     let so = match by_course {
         false => Text::new("an answer like that has full marks", "そう書いた答えも満点になります"),
         true => Text::new(
-            "an answer like that is told only by its way across edges",
-            "そう書いた答えは、境目の変わり方だけで見分けられます",
+            "an answer like that is told by its way across edges, if at all",
+            "そう書いた答えは、見分けられるとしても境目の変わり方だけによります",
         ),
     };
     Text::new(
