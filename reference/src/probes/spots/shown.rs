@@ -224,24 +224,22 @@ impl Assignment {
         ways: usize,
     ) -> Option<Vec<ProbeOutput>> {
         let spots: Vec<&Spot> = probes.iter().filter_map(|probe| probe.spot.as_deref()).collect();
-        if pipeline.hands_over_as(&self.pipeline) && spots.iter().all(|spot| spot.is_known) {
-            let colours = self.colours(pipeline, of_spots, &spots, &known(pipeline, &spots), ways)?;
-            let shown = |(spot, (colour, is_steady)): (&&Spot, (DVec3, bool))| ProbeOutput {
-                colour,
-                position: self.equation.position.map_or(DVec4::W, |_| spot.position),
-                is_steady,
-            };
-            return Some(spots.iter().zip(colours).map(shown).collect());
-        }
-        let vertices: Vec<Vertex> = spots.iter().flat_map(|spot| spot.corners).collect();
-        let (positions, written) = self.handed_by(&pipeline.vertex, of_corners, &vertices)?;
-        let handed = handed_at(pipeline, &written, &positions, &spots, pipeline.has_derivatives());
-        let colours = self.colours(pipeline, of_spots, &spots, &handed, ways)?;
-        let shown = |(spot, (colour, is_steady))| {
-            let position = self.equation.position.map_or(DVec4::W, |_| positions[3 * spot]);
-            ProbeOutput { colour, position, is_steady }
+        let is_known = pipeline.hands_over_as(&self.pipeline) && spots.iter().all(|spot| spot.is_known);
+        let (positions, handed): (Vec<DVec4>, _) = if is_known {
+            (spots.iter().map(|spot| spot.position).collect(), known(pipeline, &spots))
+        } else {
+            let vertices: Vec<Vertex> = spots.iter().flat_map(|spot| spot.corners).collect();
+            let (corners, written) = self.handed_by(&pipeline.vertex, of_corners, &vertices)?;
+            let handed = handed_at(pipeline, &written, &corners, &spots, pipeline.has_derivatives());
+            (corners.into_iter().step_by(3).collect(), handed)
         };
-        Some(colours.into_iter().enumerate().map(shown).collect())
+        let colours = self.colours(pipeline, of_spots, &spots, &handed, ways)?;
+        let shown = |(position, (colour, is_steady))| ProbeOutput {
+            colour,
+            position: self.equation.position.map_or(DVec4::W, |_| position),
+            is_steady,
+        };
+        Some(positions.into_iter().zip(colours).map(shown).collect())
     }
 }
 
