@@ -242,8 +242,10 @@ pub async fn publish(service: &Service, id: &str) -> Result<Publication, Problem
     drawn(&assignment).await?;
     // Its settings are there before anybody asks for them.
     service.store.assignment(&assignment.id).await?;
+    let turn = service.served_turn.acquire().await;
     service.store.publish(id, service.clock.now()).await?;
     service.serve(assignment);
+    drop(turn);
     grading::folders_changed(service).await;
     grading::files_wait(service).await;
     Ok(Publication::Served)
@@ -267,8 +269,10 @@ pub async fn withdraw(service: &Service, id: &str) -> Result<(), Problem> {
             "このサービスの唯一の課題です。先に別の課題を公開してください。",
         );
     }
+    let turn = service.served_turn.acquire().await;
     service.store.withdraw(&folder.assignment).await?;
     service.withdraw(&folder.assignment);
+    drop(turn);
     grading::folders_changed(service).await;
     Ok(())
 }

@@ -77,9 +77,11 @@ pub async fn adopt(state: &State, id: &str) -> Result<(), Problem> {
             ));
         }
     }
+    let turn = state.served_turn.acquire().await;
     state.store.adopt(&regrading, state.clock.now()).await?;
     if let Some(assignment) = published {
         state.serve(assignment);
+        drop(turn);
         grading::folders_changed(state).await;
     }
     state.cross_checks.look();

@@ -92,6 +92,8 @@ pub struct ServiceParts {
     generation: AtomicU64,
     /// The folders that were read to grade everything again by them.
     pub(super) folders: FolderCache,
+    /// What is served changes in one place at a time, in the database and here: what was read of it before is not served after.
+    pub(super) served_turn: Semaphore,
     /// One course is made at a time.
     pub(super) course_turn: Semaphore,
     /// One uploaded folder is checked at a time.

@@ -138,6 +138,15 @@ async fn an_uploaded_homework_is_published_and_graded(database: Database) {
         (ids(&bench).await, bench.get("/a/waves").await.status),
         (vec!["ggsample06".into()], StatusCode::NOT_FOUND)
     );
+    // What a publication has this process read anew is not served after the withdrawal.
+    for _ in 0..5 {
+        assert_eq!(publish(&bench, &id).await.status, StatusCode::OK);
+        let address = format!("/api/v1/folders/{id}/publication");
+        let withdrawn = request(&bench, ("DELETE", &address), TEACHER, vec![]).await;
+        assert_eq!(withdrawn.status, StatusCode::NO_CONTENT, "{withdrawn:?}");
+    }
+    tokio::time::sleep(Duration::from_millis(500)).await;
+    assert_eq!(ids(&bench).await, ["ggsample06"]);
     assert_eq!(publish(&bench, &id).await.status, StatusCode::OK);
     let page = bench.get(&format!("/r/{}", report["id"].as_str().expect("an id"))).await;
     assert_eq!(page.status, StatusCode::OK);

@@ -49,6 +49,7 @@ pub async fn changed(service: &Service) -> StoreResult<()> {
 
 /// Serves what the course has now, in its order.
 pub async fn reread(service: &Service) -> StoreResult<()> {
+    let _turn = service.served_turn.acquire().await;
     let plan = CoursePlan::read(&service.store).await?;
     *service.plan.write().unwrap_or_else(PoisonError::into_inner) = plan;
     folders::follow(service).await

@@ -130,6 +130,7 @@ impl Service {
             homeworks: RwLock::new(served.into_iter().map(with_pictures).collect()),
             generation: AtomicU64::new(0),
             folders: FolderCache::default(),
+            served_turn: Semaphore::new(1),
             course_turn: Semaphore::new(1),
             check_turn: Semaphore::new(1),
             config,
