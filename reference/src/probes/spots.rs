@@ -5,7 +5,9 @@
 //! computed from, at the edge of a step, no fragment is probed: there a right answer may have another one.
 
 mod across;
+mod handed;
 mod pictured;
+mod revealing;
 mod seen;
 mod shown;
 
@@ -16,12 +18,14 @@ use crate::scene::{Cull, Vertex};
 use crate::{Assignment, Value};
 pub use across::{Crossings, EdgeDefect};
 use glam::{DQuat, DVec2, DVec3, DVec4};
+pub use handed::linear;
+pub(crate) use handed::{FragmentInputs, handed_at};
+use handed::{HandedAround, mixed};
 pub use pictured::Pictured;
 use rand_chacha::ChaCha8Rng;
 use seen::{seen_at, weights_at};
-pub(crate) use shown::{FragmentInputs, handed_at};
-use shown::{HandedAround, WAYS, mixed};
-pub use shown::{ProbeOutput, linear};
+pub use shown::ProbeOutput;
+use shown::WAYS;
 
 /// How far from its own place a triangle may be moved, as a share of its mesh's size.
 const ASIDE: f64 = 0.05;
@@ -33,16 +37,6 @@ const APART: f64 = 0.25;
 /// So often fragments are drawn for a camera, and so many cameras are tried, before a camera stays with fewer of them.
 const ROUNDS: usize = 4;
 const CAMERAS: usize = 40;
-
-/// So many cameras look for fragments that reveal a variant, each among so many fragments, and each keeps so many of them. Another
-/// depth by 0.005 shows at one of five hundred fragments: some six are found.
-const REVEALING_GROUPS: usize = 8;
-const REVEALING_ROUNDS: usize = 8;
-const TRIANGLES_TO_REVEAL: usize = 60;
-const MOST_REVEALED: usize = 3;
-
-/// A colour that differs by so much is seen to be another one: ten times what is tolerated.
-const REVEALED: f64 = 2e-2;
 
 /// A fragment within a triangle.
 #[derive(Clone, Debug)]
@@ -147,32 +141,6 @@ impl Assignment {
     /// The sides of triangles of which both are drawn.
     fn usual_sides(&self) -> FragmentChoice {
         if self.probing.takes_backs { FragmentChoice::AnySide } else { FragmentChoice::Front }
-    }
-
-    /// Puts probes at which a variant that is to be revealed shows something else in the place of the last ones.
-    fn reveal(&self, random: &mut Random, group: usize, drawn: &ProbeGroup, probes: &mut Vec<Probe>) {
-        if group >= REVEALING_GROUPS {
-            return;
-        }
-        let count = probes.len();
-        for other in &self.revealed {
-            let mut found = Vec::new();
-            for _ in 0..REVEALING_ROUNDS {
-                let some = (0..TRIANGLES_TO_REVEAL).map(|_| self.triangle(random)).collect();
-                let some = self.probed(group, drawn, some, self.usual_sides()).unwrap_or_default();
-                let Some(shown) = self.shown_of_group(&other.pipeline, &drawn.uniforms, &some) else { continue };
-                let differs = |(probe, shown): &(Probe, ProbeOutput)| {
-                    (probe.colour - shown.colour).abs().max_element() > REVEALED
-                };
-                found.extend(some.into_iter().zip(shown).filter(differs).map(|(probe, _)| probe));
-                if found.len() >= MOST_REVEALED {
-                    break;
-                }
-            }
-            found.truncate(MOST_REVEALED);
-            probes.truncate(count.saturating_sub(found.len()));
-            probes.splice(0..0, found);
-        }
     }
 
     /// A triangle of what is drawn, moved and turned, a share for each corner, and which triangles are left out.
