@@ -74,6 +74,11 @@ impl Parser<'_> {
         self.peek(0).or(self.tokens.last()).map_or(1, |token| token.line)
     }
 
+    /// The line of the next token, and the byte at which it is written.
+    fn place(&self) -> (u32, u32) {
+        (self.line(), self.peek(0).map_or(0, |token| token.at))
+    }
+
     fn takes(&mut self, text: &str) -> bool {
         let is_next = self.text(0) == text;
         self.at += usize::from(is_next);

@@ -195,10 +195,21 @@ pub enum LoopCondition {
 pub struct Expression {
     /// Where its operator or first token stands.
     pub line: u32,
+    /// The byte of the text at which that is written; 0 of what no text has, and of brackets and commas. A macro writes its body and its arguments as often as
+    /// they are used.
+    pub at: u32,
     /// Whether evaluating it may change a variable.
     pub changes: bool,
     /// What it is.
     pub kind: ExpressionKind,
+}
+
+impl Expression {
+    /// One that no text has, and that changes nothing.
+    #[must_use]
+    pub fn made(line: u32, kind: ExpressionKind) -> Self {
+        Self { line, at: 0, changes: false, kind }
+    }
 }
 
 /// What an expression is.

@@ -58,16 +58,16 @@ struct Call<'a> {
 
 impl Call<'_> {
     fn call(&self, name: &str, arguments: Vec<Expression>) -> Expression {
-        Expression { line: self.line, changes: false, kind: ExpressionKind::Call(name.into(), arguments) }
+        Expression::made(self.line, ExpressionKind::Call(name.into(), arguments))
     }
 
     fn number(&self, number: f64) -> Expression {
-        Expression { line: self.line, changes: false, kind: ExpressionKind::Floating(number, false) }
+        Expression::made(self.line, ExpressionKind::Floating(number, false))
     }
 
     fn between(&self, operator: Binary, a: Expression, b: Expression) -> Expression {
         let kind = ExpressionKind::Chain(Box::new(a), vec![(operator, self.line, b)]);
-        Expression { line: self.line, changes: false, kind }
+        Expression::made(self.line, kind)
     }
 
     fn left_out(&self, scope: &mut NameScope<'_>, own: &Expression, found: &mut Vec<Local>) {
@@ -122,8 +122,7 @@ impl Call<'_> {
             }
             ("smoothstep", [low, high, x]) => {
                 let part = |x: &Expression| self.between(Binary::Subtract, x.clone(), low.clone());
-                let bracket =
-                    |inner| Expression { line: self.line, changes: false, kind: ExpressionKind::Comma(vec![inner]) };
+                let bracket = |inner| Expression::made(self.line, ExpressionKind::Comma(vec![inner]));
                 let ratio = self.between(Binary::Divide, bracket(part(x)), bracket(part(high)));
                 others.push(self.call("clamp", vec![ratio, self.number(0.0), self.number(1.0)]));
                 others.extend([low, high].map(|edge| self.call("step", vec![edge.clone(), x.clone()])));
@@ -144,7 +143,7 @@ impl Call<'_> {
         if **self.name == *"normalize" && scope.free {
             // Squared length in place of the length.
             let squared = self.call("dot", vec![one(), one()]);
-            let of = Expression { line: self.line, changes: false, kind: ExpressionKind::Comma(vec![one()]) };
+            let of = Expression::made(self.line, ExpressionKind::Comma(vec![one()]));
             found.push(Local::new(Operator::OtherFunction, self.between(Binary::Divide, of, squared)));
         }
     }
@@ -163,19 +162,17 @@ impl Call<'_> {
             ExpressionKind::Member(of, components) => {
                 let whole = self.call(self.name, [&[(**of).clone()], rest].concat());
                 let kind = ExpressionKind::Member(Box::new(whole), Name::clone(components));
-                add(Expression { line: self.line, changes: false, kind });
+                add(Expression::made(self.line, kind));
             }
             ExpressionKind::Unary(sign, of) => {
                 let whole = self.call(self.name, [&[(**of).clone()], rest].concat());
                 let kind = ExpressionKind::Unary(*sign, Box::new(whole));
-                add(Expression { line: self.line, changes: false, kind });
+                add(Expression::made(self.line, kind));
             }
             ExpressionKind::Chain(first, others) if rest.is_empty() || rest.iter().all(is_literal) => {
                 let of = |x: &Expression| self.call(self.name, [std::slice::from_ref(x), rest].concat());
-                let chain = |first: Expression, others| Expression {
-                    line: self.line,
-                    changes: false,
-                    kind: ExpressionKind::Chain(Box::new(first), others),
+                let chain = |first: Expression, others| {
+                    Expression::made(self.line, ExpressionKind::Chain(Box::new(first), others))
                 };
                 let each = others.iter().map(|(operator, line, operand)| (*operator, *line, of(operand)));
                 add(chain(of(first), each.collect()));

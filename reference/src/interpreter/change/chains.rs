@@ -74,7 +74,7 @@ impl Chain<'_> {
     }
 
     fn expression(&self, kind: ExpressionKind) -> Expression {
-        Expression { line: self.line, changes: false, kind }
+        Expression::made(self.line, kind)
     }
 
     /// The operands from `from` to before `to`.

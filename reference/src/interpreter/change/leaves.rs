@@ -15,7 +15,7 @@ const OF_TWO: [&str; 4] = ["yx", "xz", "yz", "xx"];
 /// Those of names, numbers, components and signs.
 pub(super) fn changes(place: &ExpressionPlace<'_>, scope: &mut NameScope<'_>, found: &mut Vec<Local>) {
     let own = place.own;
-    let expression = |kind| Expression { line: own.line, changes: false, kind };
+    let expression = |kind| Expression::made(own.line, kind);
     let call = |name: &str, arguments| expression(ExpressionKind::Call(name.into(), arguments));
     let number = |number| expression(ExpressionKind::Floating(number, false));
     match &own.kind {
@@ -72,7 +72,7 @@ pub(super) fn changes(place: &ExpressionPlace<'_>, scope: &mut NameScope<'_>, fo
 fn other_names(place: &ExpressionPlace<'_>, scope: &mut NameScope<'_>, found: &mut Vec<Local>) {
     let own = place.own;
     let Some(kind) = (scope.kind)(own) else { return };
-    let expression = |kind| Expression { line: own.line, changes: false, kind };
+    let expression = |kind| Expression::made(own.line, kind);
     let call = |name: &str, arguments| expression(ExpressionKind::Call(name.into(), arguments));
     let member = |of: &Expression, name: &str| expression(ExpressionKind::Member(Box::new(of.clone()), name.into()));
     let number = |number| expression(ExpressionKind::Floating(number, false));

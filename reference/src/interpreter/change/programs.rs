@@ -167,7 +167,7 @@ fn changes_of(own: &Expression, names: &TypedNames) -> Vec<Change> {
 }
 
 pub(super) fn of_name(name: &Name, line: u32) -> Expression {
-    Expression { line, changes: false, kind: ExpressionKind::Name(Name::clone(name)) }
+    Expression::made(line, ExpressionKind::Name(Name::clone(name)))
 }
 
 /// A statement, as it is told.

@@ -13,12 +13,15 @@ use crate::interpreter::syntax::{Expression, ExpressionKind, Item, StatementKind
 use crate::interpreter::types::Type;
 use crate::interpreter::{Program, Refusal, Stage, compile, parse, text};
 pub use ingredients::Ingredients;
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 
 /// A program that is to be repaired.
 #[derive(Clone, Debug)]
 pub struct Repairable {
     items: Vec<Item>,
+    /// The bytes of the text at which something is written that a macro writes several times, and whether all copies are the same: of an
+    /// argument they are, of a macro's body with arguments in it they are not.
+    copied: HashMap<u32, bool>,
     version: u32,
     stage: Stage,
 }
@@ -34,8 +37,12 @@ pub struct ProgramRepair {
     pub is_bound_by_zero: bool,
     /// The name in the right answer, or in the text, of the value that is missing, where it is one.
     pub added: Option<String>,
+    /// Whether it undoes a slip of what is written, and takes nothing from the right answer.
+    pub is_slip: bool,
     /// What is written there, and what belongs there; empty for a statement that goes.
     pub texts: [String; 2],
+    /// The byte of the text at which that is written, as [`Expression::at`].
+    at: u32,
     place: Where,
 }
 
@@ -66,7 +73,9 @@ impl Repairable {
     pub fn read(source: &str, stage: Stage) -> Result<Self, Refusal> {
         let preprocessed = text::preprocess(source)?;
         let tokens: Vec<_> = preprocessed.tokens.into_iter().map(text::Token::on_its_line).collect();
-        Ok(Self { items: parse::parse(&tokens)?, version: preprocessed.version, stage })
+        let mut items = parse::parse(&tokens)?;
+        let copied = copied(&mut items);
+        Ok(Self { items, copied, version: preprocessed.version, stage })
     }
 
     /// The changes of what stands on these lines: those of the first line first, the smaller ones before others.
@@ -95,7 +104,9 @@ impl Repairable {
                                 line: own.line,
                                 is_bound_by_zero: false,
                                 added: None,
+                                is_slip: true,
                                 texts: [written, String::new()],
+                                at: 0,
                                 place: Where::Statement(statement),
                             },
                         ));
@@ -117,6 +128,12 @@ impl Repairable {
         );
         found.extend(statements);
         found.sort_by_key(|(rank, size, repair)| (*rank, *size, repair.mistake));
+        // Copies are changed together, or not at all.
+        let mut known = HashSet::new();
+        found.retain(|(.., repair)| match self.copied.get(&repair.at) {
+            Some(is_same) => *is_same && known.insert((repair.at, repair.texts.clone())),
+            None => true,
+        });
         let mut counts = vec![0; lines.len()];
         found.retain(|(rank, ..)| {
             counts[*rank] += 1;
@@ -139,7 +156,7 @@ impl Repairable {
 
     /// What is to be repaired further.
     pub fn with(&self, repair: &ProgramRepair) -> Self {
-        Self { items: self.items_with(repair, false), ..*self }
+        Self { items: self.items_with(repair, false), copied: self.copied.clone(), ..*self }
     }
 
     fn items_with(&self, repair: &ProgramRepair, is_marked: bool) -> Vec<Item> {
@@ -157,17 +174,52 @@ impl Repairable {
                     statement += 1;
                 },
                 expression: &mut |own, _, _| {
-                    if let Where::Expression(at, path, changed) = &repair.place
-                        && *at == expression
-                    {
-                        let line = if is_marked { ProgramRepair::MARK } else { changed.line };
-                        *own = with(own, path, Expression { line, ..changed.clone() });
+                    if let Where::Expression(at, path, changed) = &repair.place {
+                        let changed = if is_marked { marked(changed) } else { changed.clone() };
+                        if self.copied.contains_key(&repair.at) {
+                            replace_copies(own, repair, &changed);
+                        } else if *at == expression {
+                            *own = with(own, path, changed);
+                        }
                     }
                     expression += 1;
                 },
             },
         );
         items
+    }
+}
+
+/// The bytes at which what is written once stands several times, and whether it is the same each time.
+fn copied(items: &mut [Item]) -> HashMap<u32, bool> {
+    let mut known: HashMap<u32, Vec<String>> = HashMap::new();
+    walk(
+        items,
+        &mut TreeWalk {
+            is_part: &|_| true,
+            bound: &mut |_, _| {},
+            statement: &mut |_, _| {},
+            expression: &mut |own, _, _| {
+                for path in paths(own) {
+                    let place = ExpressionPlace::of(own, &path).own;
+                    known.entry(place.at).or_default().push(written(place));
+                }
+            },
+        },
+    );
+    let copied = known.into_iter().filter(|(at, texts)| *at > 0 && texts.len() > 1);
+    copied.map(|(at, texts)| (at, texts.iter().all(|text| *text == texts[0]))).collect()
+}
+
+/// Puts a change into every copy of what a macro writes several times.
+fn replace_copies(own: &mut Expression, repair: &ProgramRepair, changed: &Expression) {
+    let is_copy = |path: &Path| {
+        let place = ExpressionPlace::of(own, path).own;
+        place.at == repair.at && written(place) == repair.texts[0]
+    };
+    let copies: Vec<Path> = paths(own).into_iter().filter(is_copy).collect();
+    for path in copies {
+        *own = with(own, &path, changed.clone());
     }
 }
 
@@ -190,7 +242,9 @@ fn of_expression(own: &Expression, number: usize, names: &TypedNames, right: &In
                 line: place.own.line,
                 is_bound_by_zero: added.is_bound_by_zero,
                 added: added.name,
+                is_slip: false,
                 texts: [written(place.own), written(&added.expression)],
+                at: place.own.at,
                 place: Where::Expression(number, path.clone(), added.expression),
             });
         }
@@ -254,10 +308,36 @@ fn of_slip(own: &Expression, number: usize, change: Change) -> ProgramRepair {
     let is_bound_by_zero = change.is_bound_by_zero || super::calls::is_bound_by_zero(&after);
     ProgramRepair {
         mistake,
-        line: before.line,
+        line: line_of(&before, &after),
         is_bound_by_zero,
         added: None,
+        is_slip: true,
         texts: [written(&before), written(&after)],
+        at: before.at,
         place: Where::Expression(number, change.path, after),
+    }
+}
+
+/// The expression on the line [`ProgramRepair::MARK`], the last operator of a chain among it.
+fn marked(changed: &Expression) -> Expression {
+    let mut marked = Expression { line: ProgramRepair::MARK, ..changed.clone() };
+    if let ExpressionKind::Chain(_, others) = &mut marked.kind
+        && let Some((_, line, _)) = others.last_mut()
+    {
+        *line = ProgramRepair::MARK;
+    }
+    marked
+}
+
+/// The line of what a change is about: in a chain of operators, that of the first one at which it is another chain.
+fn line_of(before: &Expression, after: &Expression) -> u32 {
+    let (ExpressionKind::Chain(first, own), ExpressionKind::Chain(other, theirs)) = (&before.kind, &after.kind) else {
+        return before.line;
+    };
+    let pairs = own.iter().zip(theirs);
+    let same = pairs.take_while(|((a, _, own), (b, _, other))| a == b && written(own) == written(other)).count();
+    match own.get(same) {
+        Some((_, line, _)) if written(first) == written(other) => *line,
+        _ => before.line,
     }
 }

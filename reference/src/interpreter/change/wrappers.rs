@@ -33,7 +33,7 @@ struct WrappedValue<'a> {
 
 impl WrappedValue<'_> {
     fn expression(&self, kind: ExpressionKind) -> Expression {
-        Expression { line: self.line, changes: false, kind }
+        Expression::made(self.line, kind)
     }
 
     fn call(&self, name: &str, arguments: Vec<Expression>) -> Expression {

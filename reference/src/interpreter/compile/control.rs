@@ -120,7 +120,7 @@ impl Compiler {
             .last()
             .ok_or_else(|| self.invalid(both("a condition is expected", "条件 (bool の値) が必要です")))?;
         let kind = crate::interpreter::syntax::ExpressionKind::Name(Name::clone(&variable.name));
-        self.truth(&Expression { line, changes: false, kind })
+        self.truth(&Expression::made(line, kind))
     }
 
     fn switch(&mut self, selector: &Expression, statements: &[Statement]) -> Result<(), Refusal> {

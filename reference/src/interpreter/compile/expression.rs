@@ -34,7 +34,7 @@ impl Compiler {
                 self.unary(*operator, operand)
             }
             ExpressionKind::Step(adds, after, operand) => self.step(*adds, *after, operand),
-            ExpressionKind::Chain(first, others) => self.chain(first, others),
+            ExpressionKind::Chain(first, others) => self.chain(first, others, expression.at),
             ExpressionKind::Assign(operator, to, from) => self.assign(*operator, to, from, expression.line),
             ExpressionKind::Conditional(condition, yes, no) => self.conditional(condition, yes, no),
             ExpressionKind::Comma(all) => {
@@ -177,7 +177,12 @@ impl Compiler {
         Ok(if after { before } else { changed })
     }
 
-    fn chain(&mut self, first: &Expression, others: &[(Binary, u32, Expression)]) -> Result<CompiledValue, Refusal> {
+    fn chain(
+        &mut self,
+        first: &Expression,
+        others: &[(Binary, u32, Expression)],
+        at: u32,
+    ) -> Result<CompiledValue, Refusal> {
         let mut left = self.value(first)?;
         let last = others.len().saturating_sub(1);
         for (number, (operator, line, right)) in others.iter().enumerate() {
@@ -194,7 +199,7 @@ impl Compiler {
             left = self.binary(*operator, left, right)?;
             // The last one is that of the whole expression.
             if number < last {
-                left = self.recorded_step(What::Binary(*operator), left);
+                left = self.recorded_step(What::Binary(*operator), left, at);
             }
         }
         Ok(left)

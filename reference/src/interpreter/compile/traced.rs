@@ -6,6 +6,7 @@ use crate::interpreter::Refusal;
 use crate::interpreter::code::{Node, ObservedValue, Slot};
 use crate::interpreter::syntax::{DeclaredVariable, Expression, ExpressionKind, Name, Unary};
 use crate::interpreter::trace::{Site, What};
+use std::collections::HashMap;
 
 /// The sites of the program that is being compiled.
 #[derive(Default)]
@@ -14,6 +15,8 @@ pub struct Tracing {
     /// Within what has to be known before the program runs.
     quiet: usize,
     pub sites: Vec<Site>,
+    /// The sites of what is written at a byte of the text. A macro may write it several times.
+    places: HashMap<u32, Vec<usize>>,
     /// The sites of the operands of each expression that is being compiled.
     operands: Vec<usize>,
     /// Where the expression that is being compiled reads.
@@ -43,8 +46,12 @@ impl Compiler {
         let mark = self.tracing.operands.len();
         let value = self.computed(expression)?;
         let Some(what) = what(expression) else { return Ok(value) };
-        self.builder.line = expression.line;
-        let value = self.record(what, value, mark);
+        // The last operator of a chain makes its value.
+        self.builder.line = match &expression.kind {
+            ExpressionKind::Chain(_, others) => others.last().map_or(expression.line, |(_, line, _)| *line),
+            _ => expression.line,
+        };
+        let value = self.record(what, value, mark, expression.at);
         let site = self.tracing.operands.last().and_then(|&site| self.tracing.sites.get_mut(site));
         site.into_iter().for_each(|site| site.is_part = !matches!(expression.kind, ExpressionKind::Name(_)));
         Ok(value)
@@ -58,8 +65,9 @@ impl Compiler {
         }
     }
 
-    /// A value in slots of its own, as that of a site whose operands were recorded since a mark.
-    fn record(&mut self, what: What, value: CompiledValue, mark: usize) -> CompiledValue {
+    /// A value in slots of its own, as that of a site whose operands were recorded since a mark, and which is written at a byte of
+    /// the text; 0 where a statement says it.
+    fn record(&mut self, what: What, value: CompiledValue, mark: usize, at: u32) -> CompiledValue {
         if value.slots.is_empty() {
             return value;
         }
@@ -67,18 +75,26 @@ impl Compiler {
         let is_own = matches!(what, What::Binary(_) | What::Unary | What::Conditional)
             && value.slots.iter().all(|&slot| self.builder.known(slot).is_none());
         let slots = if is_own { value.slots.clone() } else { self.own_copies(&value.slots) };
-        let site = self.site(what, &value, mark);
+        let site = self.site(what, &value, mark, at);
         let sources = std::mem::take(&mut self.tracing.sources);
         self.builder.push(Node::Record(Box::new(ObservedValue { site, slots: slots.clone(), sources })));
         CompiledValue { slots, ..value }
     }
 
-    fn site(&mut self, what: What, value: &CompiledValue, mark: usize) -> usize {
+    /// The copies that a macro makes of what is written once have one site, which is reached several times.
+    fn site(&mut self, what: What, value: &CompiledValue, mark: usize, at: u32) -> usize {
         let operands = self.tracing.operands.split_off(mark.min(self.tracing.operands.len()));
-        let number = self.tracing.sites.len();
         let (line, function) = (self.builder.line, self.tracing.function.clone());
         let (is_used, is_part) = (true, false);
-        self.tracing.sites.push(Site { line, what, kind: value.kind.clone(), operands, function, is_used, is_part });
+        let site = Site { line, what, kind: value.kind.clone(), operands, function, is_used, is_part };
+        let Tracing { sites, places, .. } = &mut self.tracing;
+        let known = places.get(&at).filter(|_| at > 0).into_iter().flatten();
+        let known = known.copied().find(|&known| Site { is_part, ..sites[known].clone() } == site);
+        let number = known.unwrap_or_else(|| {
+            places.entry(at).or_default().push(sites.len());
+            sites.push(site);
+            sites.len() - 1
+        });
         self.tracing.operands.push(number);
         number
     }
@@ -88,13 +104,13 @@ impl Compiler {
         slots.iter().map(|&slot| self.builder.own_copy(slot)).collect()
     }
 
-    /// One step of a chain of operators, whose two operands were recorded last.
-    pub(super) fn recorded_step(&mut self, what: What, value: CompiledValue) -> CompiledValue {
+    /// One step of a chain of operators that begins at a byte of the text; its two operands were recorded last.
+    pub(super) fn recorded_step(&mut self, what: What, value: CompiledValue, at: u32) -> CompiledValue {
         if !self.is_traced() {
             return value;
         }
         let mark = self.tracing.operands.len().saturating_sub(2);
-        self.record(what, value, mark)
+        self.record(what, value, mark, at)
     }
 
     /// What is assigned to a place.
@@ -109,7 +125,7 @@ impl Compiler {
         }
         let is_part = !is_whole || !matches!(to.kind, ExpressionKind::Name(_));
         let mark = self.tracing.operands.len().saturating_sub(1);
-        self.record(What::Assign { name: root(to).unwrap_or_default(), is_part }, value, mark)
+        self.record(What::Assign { name: root(to).unwrap_or_default(), is_part }, value, mark, 0)
     }
 
     /// The place was given what was recorded last.
@@ -192,7 +208,7 @@ impl Compiler {
         let value = self.initial_value(value, kind)?;
         self.builder.line = variable.line;
         let what = What::Assign { name: variable.name.to_string(), is_part: false };
-        Ok(self.record(what, value, mark))
+        Ok(self.record(what, value, mark, 0))
     }
 
     /// A variable has its first value.
@@ -205,7 +221,7 @@ impl Compiler {
         if slots.iter().any(|&slot| self.builder.known(slot).is_some()) {
             let mark = self.tracing.operands.len();
             let what = What::Assign { name: name.to_string(), is_part: false };
-            let site = self.site(what, value, mark);
+            let site = self.site(what, value, mark, 0);
             self.builder.push(Node::Record(Box::new(ObservedValue { site, slots, sources: Vec::new() })));
         }
         if let Some(&site) = self.tracing.operands.last() {

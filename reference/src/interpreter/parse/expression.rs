@@ -23,7 +23,7 @@ impl Parser<'_> {
         while self.takes(",") {
             all.push(self.assignment()?);
         }
-        Ok(Expression { line, changes: all.iter().any(|one| one.changes), kind: ExpressionKind::Comma(all) })
+        Ok(Expression { line, at: 0, changes: all.iter().any(|one| one.changes), kind: ExpressionKind::Comma(all) })
     }
 
     /// An expression without commas, or `{ … }`.
@@ -31,7 +31,7 @@ impl Parser<'_> {
         if self.text(0) != "{" {
             return self.assignment();
         }
-        let line = self.line();
+        let (line, at) = self.place();
         self.at += 1;
         let mut all = Vec::new();
         while !self.takes("}") {
@@ -40,7 +40,7 @@ impl Parser<'_> {
                 return Err(self.unexpected(both("`,` or `}`", " `,` または `}` ")));
             }
         }
-        Ok(Expression { line, changes: all.iter().any(|one| one.changes), kind: ExpressionKind::List(all) })
+        Ok(Expression { line, at, changes: all.iter().any(|one| one.changes), kind: ExpressionKind::List(all) })
     }
 
     /// An expression without commas.
@@ -60,16 +60,16 @@ impl Parser<'_> {
             "|=" => Some(Binary::BitOr),
             _ => return Ok(left),
         };
-        let line = self.line();
+        let (line, at) = self.place();
         self.at += 1;
         let right = self.nested(Self::assignment)?;
         let kind = ExpressionKind::Assign(operator, Box::new(left), Box::new(right));
-        Ok(Expression { line, changes: true, kind })
+        Ok(Expression { line, at, changes: true, kind })
     }
 
     fn conditional(&mut self) -> Result<Expression, Refusal> {
         let condition = self.binary(1)?;
-        let line = self.line();
+        let (line, at) = self.place();
         if !self.takes("?") {
             return Ok(condition);
         }
@@ -78,7 +78,7 @@ impl Parser<'_> {
         let no = self.nested(Self::assignment)?;
         let changes = condition.changes || yes.changes || no.changes;
         let kind = ExpressionKind::Conditional(Box::new(condition), Box::new(yes), Box::new(no));
-        Ok(Expression { line, changes, kind })
+        Ok(Expression { line, at, changes, kind })
     }
 
     /// Operators that bind at least as tightly as `level`.
@@ -86,7 +86,7 @@ impl Parser<'_> {
         let mut left = self.unary()?;
         let mut chained = 0;
         while let Some((operator, of)) = binary(self.text(0)).filter(|&(_, of)| of >= level) {
-            let line = self.line();
+            let (line, at) = self.place();
             self.at += 1;
             let right = self.nested(|parser| parser.binary(of + 1))?;
             left.changes |= right.changes;
@@ -95,7 +95,7 @@ impl Parser<'_> {
                 _ => {
                     let changes = left.changes;
                     let kind = ExpressionKind::Chain(Box::new(left), vec![(operator, line, right)]);
-                    left = Expression { line, changes, kind };
+                    left = Expression { line, at, changes, kind };
                 }
             }
             chained = of;
@@ -104,7 +104,7 @@ impl Parser<'_> {
     }
 
     fn unary(&mut self) -> Result<Expression, Refusal> {
-        let line = self.line();
+        let (line, at) = self.place();
         let operator = match self.text(0) {
             "+" => Unary::Plus,
             "-" => Unary::Minus,
@@ -116,6 +116,7 @@ impl Parser<'_> {
                 let operand = self.nested(Self::unary)?;
                 return Ok(Expression {
                     line,
+                    at,
                     changes: true,
                     kind: ExpressionKind::Step(adds, false, Box::new(operand)),
                 });
@@ -124,13 +125,13 @@ impl Parser<'_> {
         };
         self.at += 1;
         let operand = self.nested(Self::unary)?;
-        Ok(Expression { line, changes: operand.changes, kind: ExpressionKind::Unary(operator, Box::new(operand)) })
+        Ok(Expression { line, at, changes: operand.changes, kind: ExpressionKind::Unary(operator, Box::new(operand)) })
     }
 
     fn postfix(&mut self) -> Result<Expression, Refusal> {
         let mut value = self.primary()?;
         for _ in 0..super::MAX_NESTING {
-            let line = self.line();
+            let (line, at) = self.place();
             let mut changes = value.changes;
             let kind = match self.text(0) {
                 "[" => {
@@ -159,14 +160,14 @@ impl Parser<'_> {
                 }
                 _ => return Ok(value),
             };
-            value = Expression { line, changes, kind };
+            value = Expression { line, at, changes, kind };
         }
         Err(Refusal::limit(self.line(), both("this is nested too deeply", "入れ子が深すぎます")))
     }
 
     fn primary(&mut self) -> Result<Expression, Refusal> {
-        let line = self.line();
-        let plain = |kind| Expression { line, changes: false, kind };
+        let (line, at) = self.place();
+        let plain = |kind| Expression { line, at, changes: false, kind };
         if self.text(0) == "(" {
             return self.bracket();
         }
@@ -201,30 +202,35 @@ impl Parser<'_> {
         // A chain in brackets is not gone on with outside of them.
         Ok(match inner.kind {
             ExpressionKind::Chain(..) => {
-                Expression { line: inner.line, changes: inner.changes, kind: ExpressionKind::Comma(vec![inner]) }
+                Expression { line: inner.line, at: 0, changes: inner.changes, kind: ExpressionKind::Comma(vec![inner]) }
             }
             _ => inner,
         })
     }
 
     fn name_or_call(&mut self) -> Result<Expression, Refusal> {
-        let line = self.line();
+        let (line, at) = self.place();
         let lengths = self.lengths_ahead(1);
         if lengths > 0 && self.text(1 + lengths) == "(" {
             let kind = self.type_name()?;
             self.at += 1;
             let arguments = self.arguments()?;
             let changes = arguments.iter().any(|argument| argument.changes);
-            return Ok(Expression { line, changes, kind: ExpressionKind::ArrayConstructor(Box::new(kind), arguments) });
+            return Ok(Expression {
+                line,
+                at,
+                changes,
+                kind: ExpressionKind::ArrayConstructor(Box::new(kind), arguments),
+            });
         }
         let name = self.name()?;
         if !self.takes("(") {
-            return Ok(Expression { line, changes: false, kind: ExpressionKind::Name(name) });
+            return Ok(Expression { line, at, changes: false, kind: ExpressionKind::Name(name) });
         }
         let arguments = self.arguments()?;
         let changes = self.functions.contains(&name) || WRITING.contains(&&*name);
         let changes = changes || arguments.iter().any(|argument| argument.changes);
-        Ok(Expression { line, changes, kind: ExpressionKind::Call(name, arguments) })
+        Ok(Expression { line, at, changes, kind: ExpressionKind::Call(name, arguments) })
     }
 
     /// What stands in the brackets of a call, which are open.

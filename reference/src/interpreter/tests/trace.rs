@@ -1,6 +1,7 @@
 //! What is recorded of a program, and what a changed value becomes.
 
-use crate::interpreter::trace::{Trace, ValueChange, What};
+use crate::interpreter::syntax::Binary;
+use crate::interpreter::trace::{Event, Trace, ValueChange, What};
 use crate::interpreter::{Outputs, Program, Stage};
 
 const FUEL: u64 = 1_000_000;
@@ -43,6 +44,21 @@ fn values_have_the_line_on_which_they_are_written() {
     assert_eq!(given(&program, &trace, "b"), [(6, vec![7.0])]);
     let product = trace.events.iter().find(|event| event.values == [[6.0]]).expect("the product");
     assert_eq!(program.sites()[product.site].line, 4);
+}
+
+#[test]
+fn what_a_macro_writes_several_times_has_one_site() {
+    let text = "#version 460\nin float x;\nout float y;\n#define SHARE(a) ((a) / (3.0 - 2.0 * (a)))\nvoid main() {\n  float b = \
+        SHARE(\n    x * 0.5);\n  float c = SHARE(x);\n  y = b + c;\n}";
+    let program = traced(text);
+    let (_, trace) = trace(&program, &[1.0]);
+    let halves: Vec<&Event> = trace.events.iter().filter(|event| program.sites()[event.site].line == 7).collect();
+    // Twice each: the variable, the number, their product.
+    assert_eq!(halves.len(), 6);
+    assert!(halves[..3].iter().zip(&halves[3..]).all(|(one, other)| one.site == other.site));
+    // The body has one `3.0` for both uses, and a quotient for each.
+    let of = |what: &What| program.sites().iter().filter(|site| site.line == 4 && site.what == *what).count();
+    assert_eq!((of(&What::Literal), of(&What::Binary(Binary::Divide))), (2, 2));
 }
 
 #[test]

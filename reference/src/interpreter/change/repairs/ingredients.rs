@@ -196,10 +196,8 @@ impl Ingredients {
             }
             _ => own.clone(),
         };
-        let between = |operator, other: Expression| Expression {
-            line: own.line,
-            changes: false,
-            kind: ExpressionKind::Chain(Box::new(it()), vec![(operator, own.line, other)]),
+        let between = |operator, other: Expression| {
+            Expression::made(own.line, ExpressionKind::Chain(Box::new(it()), vec![(operator, own.line, other)]))
         };
         let their_values = theirs.iter().map(|(value, kind)| (value, kind, written(value)));
         let right_values = self
