@@ -29,6 +29,7 @@ use crate::Assignment;
 use crate::mistake::FoundMistake;
 use crate::probes::{Probe, ProbeSet};
 use glam::DVec3;
+use std::ops::RangeInclusive;
 
 /// How many mistakes are looked for at once.
 pub const MOST_MISTAKES: usize = 3;
@@ -62,6 +63,17 @@ impl Fit {
 /// GLSL leaves the expected value undefined (`pow` of a negative base is NaN on real drivers), only what is not finite agrees;
 /// a sample that is missing counts as NaN.
 pub fn explain(assignment: &Assignment, probes: &ProbeSet, samples: &[[f64; 3]], tolerance: f64) -> Fit {
+    explain_by(1..=MOST_MISTAKES, assignment, probes, samples, tolerance)
+}
+
+/// The same with so many mistakes at once.
+pub fn explain_by(
+    counts: RangeInclusive<usize>,
+    assignment: &Assignment,
+    probes: &ProbeSet,
+    samples: &[[f64; 3]],
+    tolerance: f64,
+) -> Fit {
     let samples = padded(probes, samples);
     let is_right = |place: &usize| agrees(probes.probes[*place].colour, samples[*place], tolerance);
     let (rest, wrong): (Vec<_>, Vec<_>) = (0..samples.len()).partition(is_right);
@@ -69,7 +81,7 @@ pub fn explain(assignment: &Assignment, probes: &ProbeSet, samples: &[[f64; 3]],
         return Fit::Explained(Vec::new());
     }
     let order = alternating(&wrong, &rest);
-    match search::search(assignment, probes, &samples, &order, tolerance) {
+    match search::search(assignment, probes, &samples, &order, tolerance, counts) {
         Some(found) => Fit::Explained(found),
         None => Fit::Unexplained(terms::judge(assignment, probes, &samples, tolerance)),
     }

@@ -23,7 +23,8 @@ fn samples(assignment: &Assignment, found: &[FoundMistake], probes: &ProbeSet) -
 }
 
 fn derived_from(assignment: &Assignment, probes: &ProbeSet, samples: &[[f64; 3]]) -> Option<Vec<FoundMistake>> {
-    explain_derived(assignment, probes, samples, &|_, _| true, TOLERANCE)
+    let found = |count| explain_derived(count, assignment, probes, samples, &|_, _| true, TOLERANCE);
+    found(1).or_else(|| found(2))
 }
 
 fn ids(found: &[FoundMistake]) -> Vec<&str> {

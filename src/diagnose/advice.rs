@@ -112,7 +112,10 @@ impl Beyond {
         if !differs.colour && !differs.position {
             return None;
         }
-        let place = || TracedProbes::beyond(evidence, self, &program)?.place_of(&self.advice.about);
+        let place = || {
+            let usual = TracedProbes::new(evidence, evidence.assignment)?;
+            TracedProbes::beyond(evidence, self, &program)?.place_of(&self.advice.about, &usual)
+        };
         let located = if differs.colour { place() } else { last_position(&program).map(Located::at) };
         if self.advice.only_about && located.is_none() {
             return None;

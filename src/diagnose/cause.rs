@@ -84,7 +84,7 @@ impl Cause {
                 let samples: Vec<[f64; 3]> = evidence.samples.iter().map(Sample::colour_f64).collect();
                 let Evidence { assignment, probes, .. } = *evidence;
                 let terms = judge_terms(assignment, probes, &samples, COLOUR_TOLERANCE);
-                let (findings, _) = inside::account(evidence);
+                let findings = inside::find(evidence);
                 Self::Unexplained { terms, findings }
             }
             _ => Self::HardCoded,

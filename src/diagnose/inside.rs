@@ -38,6 +38,7 @@ use reference::traced::{Bench, Place, Seen, TracedProgram};
 pub(super) use repair::Repaired;
 use search::{Search, is_right};
 pub(super) use walk::made_of;
+pub(super) use words::overwrites;
 
 /// Where a mistake stands.
 #[derive(Clone, Debug, PartialEq)]
@@ -93,12 +94,25 @@ pub(super) fn find(evidence: &Evidence<'_>) -> Vec<Finding> {
     within(evidence, evidence.assignment, &[], &[], |search| search.findings()).unwrap_or_default()
 }
 
-/// The same, and the changes of the text by which all becomes right, where there are such.
-pub(super) fn account(evidence: &Evidence<'_>) -> (Vec<Finding>, Vec<Repaired>) {
+/// The same, and the changes of the text by which all becomes right, where there are such. `goes_on`: whether several are looked for,
+/// where one is not enough.
+pub(super) fn account(evidence: &Evidence<'_>, goes_on: &mut dyn FnMut() -> bool) -> (Vec<Finding>, Vec<Repaired>) {
     let both = |search: &mut Search<'_, '_>| {
         let findings = search.findings();
-        let repairs = search.repairs(&findings);
+        let repairs = search.repairs(&findings, goes_on);
         (findings, repairs)
+    };
+    within(evidence, evidence.assignment, &[], &[], both).unwrap_or_default()
+}
+
+/// The place that is to be mended, and the one slip of the text without which all is right, where there is one.
+pub(super) fn slip(evidence: &Evidence<'_>) -> (Option<Finding>, Option<Located>) {
+    let both = |search: &mut Search<'_, '_>| {
+        let findings = search.findings();
+        // What is thrown away or written over is a slip of its own.
+        let is_value = findings.first().is_none_or(|first| !matches!(first.flaw, Flaw::ThrownAway | Flaw::Overwrites));
+        let slip = if is_value { search.slip(&findings) } else { None };
+        (findings.into_iter().next(), slip)
     };
     within(evidence, evidence.assignment, &[], &[], both).unwrap_or_default()
 }

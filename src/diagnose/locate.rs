@@ -4,7 +4,7 @@
 //! statement further down changes a value, or that a function or a variable of another name computes it.
 
 use super::columns::{ScalarColumns, is_colour, is_same, of_places};
-use super::inside::{self, Finding};
+use super::inside::{self, Finding, Flaw};
 use super::trials::{FUEL_OF_TRACE, StageChanges, Trials, chosen, is_drawn, place};
 use super::{Evidence, advice::Beyond};
 use crate::source::Source;
@@ -52,6 +52,8 @@ pub(super) enum MistakeOrigin {
     Absent,
     /// It makes no difference to the colour, and it is not known why; the place is the sum.
     Lost,
+    /// The place writes over it.
+    Overwritten,
 }
 
 /// The line of the last statement that gives the position.
@@ -169,8 +171,16 @@ pub(super) fn mistake(
     index: usize,
     only: Option<&Finding>,
 ) -> Option<Located> {
-    points.as_mut().and_then(|points| points.missing(found, index)).or_else(|| {
-        let one = only.cloned().or_else(|| inside::find_one(evidence, assignment, found, index))?;
-        one.is_telling.then(|| one.located())
-    })
+    let missing = points.as_mut().and_then(|points| points.missing(found, index));
+    if missing.as_ref().is_some_and(|missing| missing.role == MistakeOrigin::Zero) {
+        return missing;
+    }
+    let one = only.cloned().or_else(|| inside::find_one(evidence, assignment, found, index));
+    match (missing, one) {
+        (_, Some(one)) if one.flaw == Flaw::Overwrites => {
+            Some(Located { role: MistakeOrigin::Overwritten, ..one.located() })
+        }
+        (Some(missing), _) => Some(missing),
+        (None, one) => one.filter(|one| one.is_telling).map(|one| one.located()),
+    }
 }

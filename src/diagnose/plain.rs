@@ -4,22 +4,25 @@
 
 use crate::source::Source;
 use reference::Assignment;
-use reference::fit::{Fit, explain};
+use reference::fit::{Fit, explain_by};
 use reference::mistake::{FoundMistake, Mistake};
 use reference::probes::ProbeSet;
+use std::ops::RangeInclusive;
 
-/// The explanation of the samples; where the text refutes a part of it, another one that needs no more mistakes, if there is one.
+/// The explanation of the samples by so many mistakes; where the text refutes a part of it, another one that needs no more mistakes, if
+/// there is one.
 pub fn explained(
+    counts: RangeInclusive<usize>,
     assignment: &Assignment,
     source: &Source,
     probes: &ProbeSet,
     samples: &[[f64; 3]],
     tolerance: f64,
 ) -> Fit {
-    let fit = explain(assignment, probes, samples, tolerance);
+    let fit = explain_by(counts.clone(), assignment, probes, samples, tolerance);
     let Fit::Explained(found) = &fit else { return fit };
     let Some(rest) = without_refuted(assignment, source, found) else { return fit };
-    match explain(&rest, probes, samples, tolerance) {
+    match explain_by(counts, &rest, probes, samples, tolerance) {
         Fit::Explained(other) if other.len() <= found.len() => Fit::Explained(other),
         _ => fit,
     }

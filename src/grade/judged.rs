@@ -1,7 +1,7 @@
 //! The report on a hand-in that was drawn: by the solution, or by the accepted reading of the task that it follows.
 
-use super::{Grader, own_values};
-use crate::compare::{self, ExpectedFrame};
+use super::{Grader, Sample, own_values};
+use crate::compare::{self, COLOUR_TOLERANCE, ExpectedFrame};
 use crate::diagnose::{self, Diagnosis, Evidence, Fresh, Hints};
 use crate::diagnostic::Diagnostic;
 use crate::language::Text;
@@ -97,8 +97,9 @@ impl Grader {
         }
         // What one mistake explains is no mistake in another reading.
         let is_explained = matches!(by_solution.diagnosis.explanation.as_deref(), Some([_]));
+        let least = (!is_explained).then(|| agreeing(evidence));
         let others = self.accepted.iter().rev().filter_map(|(answer, expected)| {
-            Some((read_as(answer, expected, evidence, rendering, is_explained)?, answer, expected))
+            Some((read_as(answer, expected, evidence, rendering, least)?, answer, expected))
         });
         let points = |read: &ReadHandIn| read.diagnosis.points();
         let best = others.max_by(|(a, ..), (b, ..)| points(a).total_cmp(&points(b)));
@@ -122,14 +123,21 @@ impl Grader {
     }
 }
 
+/// At how many probes the hand-in agrees with the right answer.
+fn agreeing(evidence: &Evidence<'_>) -> usize {
+    let samples: Vec<[f64; 3]> = evidence.samples.iter().map(Sample::colour_f64).collect();
+    let wrong = reference::fit::contradicted(evidence.assignment, &[], evidence.probes, &samples, COLOUR_TOLERANCE);
+    wrong.into_iter().filter(|is_wrong| !is_wrong).count()
+}
+
 /// The hand-in by an accepted answer, where it agrees with that answer, or where the answer is a reading of the task and
-/// mistakes are looked for in it. What it computes on its way is not looked up.
+/// mistakes are looked for in it: where it agrees at no fewer probes than `least`. What it computes on its way is not looked up.
 fn read_as(
     answer: &AcceptedAnswer,
     expected: &[ExpectedFrame],
     evidence: &Evidence<'_>,
     rendering: &Rendering,
-    is_explained: bool,
+    least: Option<usize>,
 ) -> Option<ReadHandIn> {
     let Evidence { assignment, probes, fresh, .. } = *evidence;
     let frames = compared(expected, rendering);
@@ -140,7 +148,8 @@ fn read_as(
     let evidence = Evidence { frames: &frames, probes: &probes, fresh, beyond: &[], ..*evidence };
     let reading = answer.reading.as_deref();
     let read = |reading: &Reading| diagnose::diagnose(&Evidence { assignment: &reading.assignment, ..evidence });
-    let read = || reading.filter(|_| !is_explained).map(read);
+    let is_likely = || least.is_some_and(|least| agreeing(&evidence) >= least);
+    let read = || reading.filter(|_| is_likely()).map(read);
     let mut diagnosis = diagnose::agreement(&evidence).or_else(read)?;
     diagnosis.explanation = None;
     diagnosis.advice.extend(reading.map(|reading| AdviceLine {

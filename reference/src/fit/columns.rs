@@ -68,6 +68,8 @@ struct RuleBody<'a> {
     /// The cell that it computes, and the cell of the number that is free in it.
     cell: usize,
     free: Option<usize>,
+    /// What it takes to compute it.
+    cost: u64,
 }
 
 pub(super) struct RuleColumns<'a> {
@@ -82,7 +84,12 @@ pub(super) struct RuleColumns<'a> {
     registers: Registers,
     /// Where combinations are computed that are not worth a column.
     scratch: Registers,
+    /// How many steps of formulas were computed, and those that begin one: what a search costs, on any machine and with any equation.
+    pub work: u64,
 }
+
+/// To begin a formula costs as much as so many of its steps.
+const BEGINNING: u64 = 4;
 
 impl<'a> RuleColumns<'a> {
     /// `order`: the places of the probes in the set, in the order in which they are tried.
@@ -98,6 +105,7 @@ impl<'a> RuleColumns<'a> {
             known: HashMap::default(),
             registers: equation.registers(),
             scratch: equation.registers(),
+            work: 0,
         }
     }
 
@@ -116,6 +124,7 @@ impl<'a> RuleColumns<'a> {
             uniforms: given(&equation.uniforms),
             attributes: given(&equation.attributes),
             cell: formula.cell(),
+            cost: BEGINNING + formula.steps() as u64,
             free: Some(equation.parameter_cell()).filter(|cell| formula.uses().contains(cell)),
         });
         Rule(u32::try_from(self.rules.len() - 1).unwrap_or(u32::MAX))
@@ -219,6 +228,7 @@ impl<'a> RuleColumns<'a> {
                 parameter,
                 &mut self.scratch,
             );
+            self.work += rule.cost;
             sheet.compute(rule.formula, &mut self.scratch);
             changed |= 1 << definition;
         }
@@ -254,6 +264,7 @@ impl<'a> RuleColumns<'a> {
         }
         let parameter = f64::from_bits(parameter);
         rule.give(self.equation, self.uniforms[probe], &self.probes[probe].attributes, parameter, registers);
+        self.work += rule.cost;
         sheet.compute(rule.formula, registers);
         self.columns[column as usize].numbers.extend_from_slice(sheet.get(rule.cell, registers));
     }

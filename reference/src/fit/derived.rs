@@ -12,17 +12,19 @@ use crate::probes::ProbeSet;
 use glam::{DVec3, DVec4};
 use std::rc::Rc;
 
-/// How many colours are computed in search of two mistakes without numbers, before it is given up; with numbers half as many
-/// more. Some 0.1 s in all.
-const MOST_COLOURS: u64 = 250_000;
+/// What is computed in search of two mistakes without numbers, before it is given up; with numbers, see
+/// [`super::columns::RuleColumns::work`]. Some 0.2 s in all.
+const WORK_FOR_TWO: u64 = 12_000_000;
+const WORK_FOR_NUMBERS: u64 = 3_000_000;
 
 /// Where a pair in different terms is tried by adding up what each changes.
 const SUMMED_AT: usize = 3;
 
-/// Looks for the mistakes that explain `samples`, at least one of them derived, see [`super::explain`].
+/// Looks for so many mistakes, one or two, that explain `samples`, at least one of them derived, see [`super::explain`].
 ///
 /// `is_there`: whether a sample's position is a given one.
 pub fn explain_derived(
+    count: usize,
     assignment: &Assignment,
     probes: &ProbeSet,
     samples: &[[f64; 3]],
@@ -51,9 +53,10 @@ pub fn explain_derived(
     let shows = |place: usize, (colour, position): &Computed| {
         agrees(*colour, samples[place], tolerance) && is_there(place, *position)
     };
-    let alone = pairs.alone().filter(&moves);
-    let alone = alone.or_else(|| program(derived, probes, &shows).map(|found| vec![found]));
-    alone.or_else(|| pairs.together().filter(moves))
+    match count {
+        1 => pairs.alone().filter(moves).or_else(|| program(derived, probes, &shows).map(|found| vec![found])),
+        _ => pairs.together().filter(moves),
+    }
 }
 
 /// So many programs are run at all probes, where the first ones do not tell them apart.
@@ -138,7 +141,7 @@ impl<'a> Pairs<'a> {
     /// Two mistakes.
     fn together(&mut self) -> Option<Vec<FoundMistake>> {
         self.search.count = 2;
-        self.search.spent = 0;
+        self.search.allow(WORK_FOR_TWO);
         let is_usual =
             |one: &&Rc<Candidate<'_>>| !one.whole && (!self.is_derived(one) || self.derived.is_usual(one.mistake));
         let all: Vec<_> = self.search.candidates.iter().filter(is_usual).map(Rc::clone).collect();
@@ -149,6 +152,7 @@ impl<'a> Pairs<'a> {
         if self.search.best.is_some() {
             return self.found();
         }
+        self.search.allow(WORK_FOR_NUMBERS);
         self.with_a_number(&fixed, &free);
         if self.search.best.is_none() {
             self.with_two_numbers(&free);
@@ -210,7 +214,7 @@ impl<'a> Pairs<'a> {
                 if is_apart || !(self.is_derived(first) || self.is_derived(second)) || !fits(&chosen, second, false) {
                     continue;
                 }
-                if self.search.spent > MOST_COLOURS {
+                if self.search.is_spent() {
                     return;
                 }
                 if self.search.explains(&resolved, &second.replaced) {
@@ -231,7 +235,7 @@ impl<'a> Pairs<'a> {
                 if makes_up || !(self.is_derived(first) || self.is_derived(second)) || !fits(&chosen, second, true) {
                     continue;
                 }
-                if self.search.spent > MOST_COLOURS + MOST_COLOURS / 2 {
+                if self.search.is_spent() {
                     return;
                 }
                 if let Some(solved) = self.search.solve_all(&resolved, &[Rc::clone(second)]) {
@@ -249,7 +253,7 @@ impl<'a> Pairs<'a> {
                 if shares || !(self.is_derived(first) || self.is_derived(second)) {
                     continue;
                 }
-                if self.search.spent > 2 * MOST_COLOURS {
+                if self.search.is_spent() {
                     return;
                 }
                 if let Some(solved) = self.search.solve_all(&self.right, &[Rc::clone(first), Rc::clone(second)]) {

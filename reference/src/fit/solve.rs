@@ -72,7 +72,6 @@ impl<'a> MistakeSearch<'a> {
         let mut value = |x: f64| self.columns.colour_with(base, &candidate.with(x), probe)[channel];
         let target = self.samples[probe][channel];
         let rising = value(ends[0]) < value(ends[1]);
-        self.spent += HALVINGS as u64;
         let (mut low, mut high) = (ends[0].ln(), ends[1].ln());
         for _ in 0..HALVINGS {
             let middle = f64::midpoint(low, high);
@@ -102,7 +101,6 @@ impl<'a> MistakeSearch<'a> {
         let steps: Vec<f64> = (0..=STEPS).map(|step| parameter.from * ratio.powi(step)).collect();
         let few = [steps[0], steps[steps.len() / 2], parameter.to];
         let is_hopeless = |search: &mut Self, probe: usize| {
-            search.spent += few.len() as u64;
             let [a, b, c] = few.map(|x| search.columns.colour_with(base, &candidate.with(x), probe));
             let is_still = (a - b).abs().max((b - c).abs()).max_element() <= UNMOVED * search.tolerance;
             is_still && others.is_empty() && !agrees(a, search.samples[probe], search.tolerance)
@@ -113,7 +111,6 @@ impl<'a> MistakeSearch<'a> {
         let mut looked_at = 0;
         for probe in 0..self.samples.len() {
             let unmoved = self.unmoved(base, others, probe);
-            self.spent += steps.len() as u64;
             let values: Vec<_> =
                 steps.iter().map(|x| self.columns.colour_with(base, &candidate.with(*x), probe)).collect();
             let moves = |c: usize| values.iter().any(|v| (v[c] - values[0][c]).abs() > CLEAR * self.tolerance);
@@ -141,7 +138,6 @@ impl<'a> MistakeSearch<'a> {
             return self.explains(base, replaced);
         }
         (0..self.samples.len()).all(|probe| {
-            self.spent += 1;
             let expected = self.columns.colour_with(base, replaced, probe);
             agrees(expected, self.samples[probe], self.tolerance) || {
                 let unmoved = self.unmoved(base, others, probe);
@@ -156,7 +152,6 @@ impl<'a> MistakeSearch<'a> {
         let mut unmoved = [true; 3];
         for candidate in candidates {
             let Some(parameter) = candidate.free else { continue };
-            self.spent += 2;
             let [a, b] =
                 [parameter.from, parameter.to].map(|x| self.columns.colour_with(base, &candidate.with(x), probe));
             for channel in 0..3 {
@@ -185,7 +180,6 @@ impl<'a> MistakeSearch<'a> {
             if unmoved == [false; 3] {
                 continue;
             }
-            self.spent += 2;
             let sample = self.samples[probe];
             let mut end = |x: f64| self.columns.colour_with(base, &candidate.with(x), probe);
             let (a, b) = (end(parameter.from), end(parameter.to));

@@ -85,6 +85,15 @@ enum FunctionBody {
     Nodes(Vec<Node>),
 }
 
+impl FunctionBody {
+    fn steps(&self) -> usize {
+        match self {
+            Self::Straight(steps) => steps.len(),
+            Self::Nodes(nodes) => nodes.len(),
+        }
+    }
+}
+
 /// All cells, and the functions that formulas call.
 #[derive(Debug)]
 pub struct Sheet {
@@ -100,6 +109,12 @@ pub struct Sheet {
 pub struct Registers(Vec<f64>);
 
 impl Formula {
+    /// How many steps it takes, calls and loops aside.
+    #[must_use]
+    pub fn steps(&self) -> usize {
+        self.body.steps()
+    }
+
     /// The formula of a cell. `functions` are those that it may call; `temporaries` are free to be used.
     ///
     /// # Errors

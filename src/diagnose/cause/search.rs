@@ -19,6 +19,9 @@ use reference::fit::{
 use reference::mistake::FoundMistake;
 use reference::probes::ProbeSet;
 
+/// So many mistakes are looked for at once before the text is looked into.
+const FEW: usize = MOST_MISTAKES - 1;
+
 /// Whether a picture is off by no more than what is nearly right.
 fn is_hardly_off(frame: &FrameResult) -> bool {
     frame.max_difference <= NEARLY * 255.0
@@ -78,7 +81,7 @@ pub(in crate::diagnose) fn cause(evidence: &Evidence<'_>, shape: bool) -> Cause 
         let is_known = assignment.mistake(HARD_CODED).is_some() && assignment.equation.reads() == Reads::Outputs;
         is_known && !is_dark(evidence.samples) && inside::ignores_all(evidence)
     };
-    match plain::explained(assignment, evidence.source, probes, &samples, COLOUR_TOLERANCE) {
+    match plain::explained(1..=FEW, assignment, evidence.source, probes, &samples, COLOUR_TOLERANCE) {
         // What computes a right term has it multiplied by 0, or left out.
         Fit::Explained(found)
             if shows_a_table
@@ -95,7 +98,6 @@ pub(in crate::diagnose) fn cause(evidence: &Evidence<'_>, shape: bool) -> Cause 
         Fit::Explained(found) if frames_agree && hard_coded::leaves_nothing(assignment, &found) => Cause::HardCoded,
         // Some mistakes together come near to nearly anything.
         Fit::Explained(found) if found.len() > 1 && is_nearly_right() => Cause::NearlyRight,
-        Fit::Explained(found) if found.len() == MOST_MISTAKES && !is_borne_out(evidence, &found) => by_term(),
         Fit::Explained(found) if is_dark(evidence.samples) && stands_elsewhere(evidence, &found) => by_term(),
         Fit::Explained(found) => Cause::known(found),
         Fit::Unexplained(_) if is_lookup || is_made_for_the_poses() => Cause::HardCoded,
@@ -128,7 +130,7 @@ fn told_by_text(
     if !inside::looks_up(evidence) || !(is_little || is_ambiguous()) {
         return None;
     }
-    let (findings, repairs) = inside::account(evidence);
+    let (findings, repairs) = inside::account(evidence, &mut || true);
     if let Ok([repaired]) = <[Repaired; 1]>::try_from(repairs)
         && repaired.builds_on_the_text()
     {
@@ -167,16 +169,24 @@ fn unexplained(
     };
     // What the text itself becomes right by says more than a change of the solution that the text does not bear out. One change says
     // more than two mistakes.
-    let derived = (!is_dark(evidence.samples)).then(|| derived(evidence, samples)).flatten();
-    let derived = derived.filter(|cause| pair.is_none() && parts.is_none() || cause.ids().len() == 1);
-    let doubtful = match derived {
+    let is_dark = is_dark(evidence.samples);
+    let alone = (!is_dark).then(|| derived(1, evidence, samples)).flatten();
+    let doubtful = match alone {
         Some(cause) if !cause.is_contradicted(evidence) => return cause,
         doubtful => doubtful,
     };
     if let Some(cause) = pair.map(Cause::known).or(parts.map(Cause::Parts)) {
         return cause;
     }
-    let (findings, repairs) = inside::account(evidence);
+    // What one change of the text does not mend, several mistakes may explain, and then two changes.
+    let several = || several(evidence, samples, is_dark);
+    let mut sought = doubtful.map(Some);
+    let (findings, repairs) = inside::account(evidence, &mut || sought.get_or_insert_with(several).is_none());
+    if repairs.is_empty()
+        && let Some(cause) = sought.get_or_insert_with(several).take()
+    {
+        return cause;
+    }
     let terms = match judge_factor(assignment, probes, samples, COLOUR_TOLERANCE) {
         Some(terms) => terms,
         None => {
@@ -191,16 +201,28 @@ fn unexplained(
     let repairs = repairs.into_iter().map(|repaired| (worth::charged(assignment, &wrong, &repaired), repaired));
     let repairs: Vec<(Vec<String>, Repaired)> = repairs.collect();
     if repairs.is_empty() || repairs.iter().any(|(lines, _)| lines.is_empty()) {
-        return doubtful.unwrap_or(Cause::Unexplained { terms, findings });
+        return sought.unwrap_or_else(several).unwrap_or(Cause::Unexplained { terms, findings });
     }
     Cause::Repaired(repairs)
 }
 
-/// The derived mistakes that explain the samples, also those that nobody knows beforehand; perhaps on top of changed constants.
-fn derived(evidence: &Evidence<'_>, samples: &[[f64; 3]]) -> Option<Cause> {
+/// Several mistakes at once that explain the samples: three that are written down, or two of which one is derived.
+fn several(evidence: &Evidence<'_>, samples: &[[f64; 3]], is_dark: bool) -> Option<Cause> {
+    let Evidence { assignment, probes, source, .. } = *evidence;
+    let counts = MOST_MISTAKES..=MOST_MISTAKES;
+    match plain::explained(counts, assignment, source, probes, samples, COLOUR_TOLERANCE) {
+        Fit::Explained(found) if is_borne_out(evidence, &found) => Some(Cause::known(found)),
+        _ if is_dark => None,
+        _ => derived(2, evidence, samples).filter(|cause| !cause.is_contradicted(evidence)),
+    }
+}
+
+/// So many mistakes, one of them derived, that explain the samples, also those that nobody knows beforehand; perhaps on top of changed
+/// constants.
+fn derived(count: usize, evidence: &Evidence<'_>, samples: &[[f64; 3]]) -> Option<Cause> {
     let constants = constants::changed(evidence.source, evidence.assignment);
     let explained = |assignment: &Assignment, probes: &ProbeSet, constants: Vec<ChangedConstant>| {
-        let found = explain_derived(assignment, probes, samples, &is_there(evidence), COLOUR_TOLERANCE)?;
+        let found = explain_derived(count, assignment, probes, samples, &is_there(evidence), COLOUR_TOLERANCE)?;
         let is_borne_out = plain::is_borne_out(assignment, evidence.source, &found);
         let spared = spared::by_text(evidence, &found);
         let cause = Cause::Known { constants, found, spared };
@@ -269,7 +291,7 @@ fn explained_by(
     }
     let changed = with_constants(evidence.assignment, constants)?;
     let probes = changed.reprobe(evidence.probes);
-    match plain::explained(&changed, evidence.source, &probes, samples, COLOUR_TOLERANCE) {
+    match plain::explained(1..=FEW, &changed, evidence.source, &probes, samples, COLOUR_TOLERANCE) {
         Fit::Explained(found) => Some(found),
         Fit::Unexplained(_) => None,
     }

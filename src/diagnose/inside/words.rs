@@ -7,6 +7,20 @@ use reference::Assignment;
 /// Numbers are written with so many places behind the point, so that a cosine can be told from another.
 const PLACES: usize = 3;
 
+/// What is said of a line that gives a variable another value than one that belongs to a sum.
+pub fn overwrites(line: u32, name: &Option<String>) -> Text {
+    Text::new(
+        format!(
+            "Line {line} writes over what{} held before: does that not belong to the sum as well?",
+            named(name, "", "").0
+        ),
+        format!(
+            "{line} 行目で、それまでの{}値が上書きされています。その値も和に含まれるはずです。",
+            named(name, "", "の").1
+        ),
+    )
+}
+
 impl Finding {
     /// Where to look, and what is not right there. `name`: what a definition is called.
     pub fn sentence(&self, assignment: &Assignment) -> Text {
@@ -14,16 +28,7 @@ impl Finding {
         let means = self.quantity.as_deref().and_then(|quantity| meaning(assignment, quantity));
         match &self.flaw {
             Flaw::Lacks(missing) => lacks(assignment, line, self.name.as_deref(), missing),
-            Flaw::Overwrites => Text::new(
-                format!(
-                    "Line {line} writes over what{} held before: does that not belong to the sum as well?",
-                    named(&self.name, "", "").0
-                ),
-                format!(
-                    "{line} 行目で、それまでの{}値が上書きされています。その値も和に含まれるはずです。",
-                    named(&self.name, "", "の").1
-                ),
-            ),
+            Flaw::Overwrites => overwrites(line, &self.name),
             Flaw::ThrownAway => Text::new(
                 format!(
                     "The result of line {line} is thrown away: a function gives a new value, and leaves what it is given as it is."

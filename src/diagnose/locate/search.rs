@@ -5,7 +5,7 @@ use crate::diagnose::columns::{ScalarColumns, fits, is_colour, is_same, is_zero,
 use crate::diagnose::trials::{StageChanges, change};
 use glam::DVec3;
 use reference::interpreter::Binary;
-use reference::interpreter::trace::{ValueChange, What};
+use reference::interpreter::trace::{Site, ValueChange, What};
 use reference::mistake::{FoundMistake, Mistake};
 
 /// A mistake that makes something 0 everywhere that should not be.
@@ -21,14 +21,25 @@ struct Missing {
 }
 
 impl TracedProbes<'_> {
-    /// The place of the first of these definitions that is all there is to mend.
-    pub fn place_of(&mut self, definitions: &[String]) -> Option<Located> {
+    /// The place of the first of these definitions that is all there is to mend. `usual`: the same text where nothing is to be mended,
+    /// in which the place has the definition's value: what only mends by chance is another one.
+    pub fn place_of(&mut self, definitions: &[String], usual: &TracedProbes<'_>) -> Option<Located> {
         let equation = &self.assignment.equation;
         let right = self.definitions(&equation.right());
         let wanted = self.colours(&equation.right());
+        let as_usual = usual.definitions(&usual.assignment.equation.right());
         let chosen: Vec<usize> = definitions.iter().filter_map(|name| equation.index(name)).collect();
-        let found = chosen.into_iter().find_map(|d| self.mending(&right[d], &wanted, false).first().copied())?;
+        let found = chosen.into_iter().find_map(|d| {
+            let mut mending = self.mending(&right[d], &wanted, false).into_iter();
+            mending.find(|event| usual.has_at(&self.sites[self.trace.events[*event].site], &as_usual[d]))
+        })?;
         Some(self.located(found, MistakeOrigin::Wrong))
+    }
+
+    /// Whether a place of the text has this value. Sites have other numbers where a constant is written in another way.
+    fn has_at(&self, place: &Site, value: &ScalarColumns) -> bool {
+        let is_it = |site: &Site| site.line == place.line && site.what == place.what;
+        self.trace.events.iter().any(|event| is_it(&self.sites[event.site]) && is_same(event, value))
     }
 
     /// Where a term is that mistake `index` makes 0 everywhere, or else the sum in which it does not appear. `None` for any

@@ -3,9 +3,10 @@
 use super::{Facts, is_general};
 use crate::diagnose::cause::{Cause, PART_SCALED};
 use crate::diagnose::constants::ChangedConstant;
-use crate::diagnose::inside::Finding;
+use crate::diagnose::inside::{self, Finding};
 use crate::diagnose::locate::{self, Located, MistakeOrigin, Words, is_handed_out};
 use crate::diagnose::{CONSTANTS_CHANGED, Evidence, POSITION_CHANGED, belongs};
+use crate::language::Text;
 use crate::report::FrameResult;
 use crate::source::Source;
 use crate::translate::NO_LINE;
@@ -107,6 +108,13 @@ impl<'f> Blanks<'f> {
             }
         }
         blanks
+    }
+
+    /// What is said where the line writes over what the mistake is about.
+    pub fn overwritten(&self) -> Option<Text> {
+        let name = self.values.iter().find(|(name, _)| *name == "name").map(|(_, own)| own.clone());
+        let line = self.line.filter(|_| self.role == Some(MistakeOrigin::Overwritten))?;
+        Some(inside::overwrites(line, &name))
     }
 
     fn place(&mut self, evidence: &'f Evidence<'_>, mistake: &Mistake, located: Option<Located>) {
