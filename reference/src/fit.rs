@@ -4,6 +4,7 @@
 //! then the one that touches the fewest lines of the rubric, then the first in the assignment's table. What nothing explains is judged term by term, where a term stands alone.
 
 mod alternatives;
+mod candidates;
 mod columns;
 mod derived;
 mod digits;

@@ -3,13 +3,16 @@
 //! A search tries thousands of combinations that share most of their terms, and gives most of them up after a few probes. So
 //! a definition with given inputs is one column, shared by all combinations, and filled only as far as somebody asks.
 
+mod mixer;
+
 use crate::equation::{Equation, MAX_INPUTS};
 use crate::interpreter::{Formula, Registers};
 use crate::probes::{Probe, ProbeSet};
 use crate::{Assignment, Value, value};
 use glam::DVec3;
+use mixer::Mixer;
 use std::collections::HashMap;
-use std::hash::{BuildHasherDefault, Hasher};
+use std::hash::BuildHasherDefault;
 
 /// Definitions as a set of bits.
 pub(super) type Set = u64;
@@ -289,32 +292,5 @@ impl RuleBody<'_> {
         if let Some(cell) = self.free {
             equation.sheet.set(cell, &[parameter], registers);
         }
-    }
-}
-
-/// A quick hash for keys of our own making, by multiplication; no key comes from a student.
-#[derive(Default)]
-struct Mixer(u64);
-
-impl Hasher for Mixer {
-    fn finish(&self) -> u64 {
-        self.0 ^ (self.0 >> 29)
-    }
-
-    fn write(&mut self, bytes: &[u8]) {
-        for chunk in bytes.chunks(8) {
-            let mut word = [0; 8];
-            word[..chunk.len()].copy_from_slice(chunk);
-            self.write_u64(u64::from_le_bytes(word));
-        }
-    }
-
-    fn write_u32(&mut self, n: u32) {
-        self.write_u64(u64::from(n));
-    }
-
-    fn write_u64(&mut self, n: u64) {
-        // 2⁶⁴ divided by the golden ratio.
-        self.0 = (self.0.rotate_left(23) ^ n).wrapping_mul(0x9E37_79B9_7F4A_7C15);
     }
 }

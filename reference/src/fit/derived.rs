@@ -1,7 +1,8 @@
 //! Looking for derived mistakes, where the written ones explain nothing: alone, then two at once, one of which may be written.
 
+use super::candidates::{Candidate, fits};
 use super::columns::Resolved;
-use super::search::{Candidate, MistakeSearch, fits};
+use super::search::MistakeSearch;
 use super::{agrees, alternating, padded};
 use crate::Assignment;
 use crate::accepted::Computed;

@@ -1,8 +1,9 @@
 //! Finding the numbers that are free in mistakes.
 
+use super::candidates::Candidate;
 use super::columns::{Replaced, Resolved};
 use super::digits::simpler;
-use super::search::{Candidate, MistakeSearch};
+use super::search::MistakeSearch;
 use super::{MOST_MISTAKES, agrees, channel_agrees};
 use crate::mistake::FreeParameter;
 use std::rc::Rc;

@@ -85,15 +85,6 @@ enum FunctionBody {
     Nodes(Vec<Node>),
 }
 
-impl FunctionBody {
-    fn steps(&self) -> usize {
-        match self {
-            Self::Straight(steps) => steps.len(),
-            Self::Nodes(nodes) => nodes.len(),
-        }
-    }
-}
-
 /// All cells, and the functions that formulas call.
 #[derive(Debug)]
 pub struct Sheet {
@@ -112,7 +103,10 @@ impl Formula {
     /// How many steps it takes, calls and loops aside.
     #[must_use]
     pub fn steps(&self) -> usize {
-        self.body.steps()
+        match &*self.body {
+            FunctionBody::Straight(steps) => steps.len(),
+            FunctionBody::Nodes(nodes) => nodes.len(),
+        }
     }
 
     /// The formula of a cell. `functions` are those that it may call; `temporaries` are free to be used.

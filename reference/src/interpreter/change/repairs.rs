@@ -3,7 +3,9 @@
 //! These are the slips of the text itself, for most slips undo another one, and what the right answer is made of: its values,
 //! its functions with what else they are given, its numbers.
 
+mod copies;
 mod ingredients;
+mod size;
 
 use super::inverse::{mistake_of, of_statement};
 use super::programs::{guess, left_out, of_name};
@@ -12,7 +14,9 @@ use super::{Change, NameScope, Operator, changes, written};
 use crate::interpreter::syntax::{Expression, ExpressionKind, Item, StatementKind};
 use crate::interpreter::types::Type;
 use crate::interpreter::{Program, Refusal, Stage, compile, parse, text};
+use copies::{copied, replace_copies};
 pub use ingredients::Ingredients;
+use size::{size, tokens};
 use std::collections::{HashMap, HashSet};
 
 /// A program that is to be repaired.
@@ -190,39 +194,6 @@ impl Repairable {
     }
 }
 
-/// The bytes at which what is written once stands several times, and whether it is the same each time.
-fn copied(items: &mut [Item]) -> HashMap<u32, bool> {
-    let mut known: HashMap<u32, Vec<String>> = HashMap::new();
-    walk(
-        items,
-        &mut TreeWalk {
-            is_part: &|_| true,
-            bound: &mut |_, _| {},
-            statement: &mut |_, _| {},
-            expression: &mut |own, _, _| {
-                for path in paths(own) {
-                    let place = ExpressionPlace::of(own, &path).own;
-                    known.entry(place.at).or_default().push(written(place));
-                }
-            },
-        },
-    );
-    let copied = known.into_iter().filter(|(at, texts)| *at > 0 && texts.len() > 1);
-    copied.map(|(at, texts)| (at, texts.iter().all(|text| *text == texts[0]))).collect()
-}
-
-/// Puts a change into every copy of what a macro writes several times.
-fn replace_copies(own: &mut Expression, repair: &ProgramRepair, changed: &Expression) {
-    let is_copy = |path: &Path| {
-        let place = ExpressionPlace::of(own, path).own;
-        place.at == repair.at && written(place) == repair.texts[0]
-    };
-    let copies: Vec<Path> = paths(own).into_iter().filter(is_copy).collect();
-    for path in copies {
-        *own = with(own, &path, changed.clone());
-    }
-}
-
 /// The changes of an expression.
 fn of_expression(own: &Expression, number: usize, names: &TypedNames, right: &Ingredients) -> Vec<ProgramRepair> {
     let known = names.iter().rev().filter_map(|(name, kind)| Some((of_name(name, own.line), Type::named(kind)?)));
@@ -261,35 +232,6 @@ fn of_expression(own: &Expression, number: usize, names: &TypedNames, right: &In
 /// Whether an expression is a whole statement, so that its operand is a whole value.
 fn is_statement(parent: &Expression) -> bool {
     matches!(parent.kind, ExpressionKind::Assign(..))
-}
-
-/// How many words and signs a change takes away and puts there, and whether it puts any there: what is too much is plainer than what
-/// another one should stand for.
-fn size(texts: &[String; 2]) -> (usize, bool) {
-    let [mut before, mut after] = [tokens(&texts[0]), tokens(&texts[1])];
-    before.retain(|token| match after.iter().position(|other| other == token) {
-        Some(place) => {
-            after.remove(place);
-            false
-        }
-        None => true,
-    });
-    (before.len() + after.len(), !after.is_empty())
-}
-
-fn tokens(text: &str) -> Vec<&str> {
-    let is_word = |c: char| c.is_ascii_alphanumeric() || "_.".contains(c);
-    let mut found = Vec::new();
-    let mut rest = text;
-    while let Some(first) = rest.chars().next() {
-        let end = match is_word(first) {
-            true => rest.find(|c| !is_word(c)).unwrap_or(rest.len()),
-            false => first.len_utf8(),
-        };
-        found.extend(Some(&rest[..end]).filter(|token| !token.trim().is_empty()));
-        rest = &rest[end..];
-    }
-    found
 }
 
 fn of_slip(own: &Expression, number: usize, change: Change) -> ProgramRepair {
