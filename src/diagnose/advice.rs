@@ -14,6 +14,7 @@ use reference::Assignment;
 use reference::advice::Variation;
 use reference::probes::ProbeSet;
 use reference::traced::{Bench, Place, Seen, TracedProgram};
+use std::cell::LazyCell;
 
 /// How many probes are varied for each piece of advice.
 const PROBES: usize = 8;
@@ -55,7 +56,8 @@ pub(super) fn find(evidence: &Evidence<'_>) -> Vec<AdviceLine> {
     if evidence.beyond.is_empty() || !is_defined(evidence) {
         return found;
     }
-    for advice in evidence.beyond.iter().filter_map(|beyond| beyond.advice(evidence)) {
+    let usual = LazyCell::new(|| TracedProbes::new(evidence, evidence.assignment));
+    for advice in evidence.beyond.iter().filter_map(|beyond| beyond.advice(evidence, || usual.as_ref())) {
         if advice.line.is_none() || !found.iter().any(|other| other.line == advice.line) {
             found.push(advice);
         }
@@ -106,16 +108,18 @@ impl Beyond {
         TracedProgram::new(evidence.assignment, &[(*stage, &plain_lines(&text))]).ok()
     }
 
-    fn advice(&self, evidence: &Evidence<'_>) -> Option<AdviceLine> {
+    /// `usual`: the text where nothing is varied, which is run only where a place is looked for.
+    fn advice<'u>(
+        &self,
+        evidence: &Evidence<'_>,
+        usual: impl FnOnce() -> Option<&'u TracedProbes<'u>>,
+    ) -> Option<AdviceLine> {
         let program = self.program(evidence)?;
         let differs = self.differs(&program)?;
         if !differs.colour && !differs.position {
             return None;
         }
-        let place = || {
-            let usual = TracedProbes::new(evidence, evidence.assignment)?;
-            TracedProbes::beyond(evidence, self, &program)?.place_of(&self.advice.about, &usual)
-        };
+        let place = || TracedProbes::beyond(evidence, self, &program)?.place_of(&self.advice.about, usual()?);
         let located = if differs.colour { place() } else { last_position(&program).map(Located::at) };
         if self.advice.only_about && located.is_none() {
             return None;

@@ -89,9 +89,14 @@ pub(super) enum Flaw {
     Interpolation,
 }
 
-/// Looks for the one place that has to be mended for what is seen to be right.
+/// Looks for the places that have to be mended for what is seen to be right.
 pub(super) fn find(evidence: &Evidence<'_>) -> Vec<Finding> {
-    within(evidence, evidence.assignment, &[], &[], |search| search.findings()).unwrap_or_default()
+    find_in(evidence, evidence.assignment)
+}
+
+/// The same in the homework with other constants.
+pub(super) fn find_in(evidence: &Evidence<'_>, assignment: &Assignment) -> Vec<Finding> {
+    within(evidence, assignment, &[], &[], |search| search.findings()).unwrap_or_default()
 }
 
 /// The same, and the changes of the text by which all becomes right, where there are such. `goes_on`: whether several are looked for,
@@ -105,14 +110,14 @@ pub(super) fn account(evidence: &Evidence<'_>, goes_on: &mut dyn FnMut() -> bool
     within(evidence, evidence.assignment, &[], &[], both).unwrap_or_default()
 }
 
-/// The place that is to be mended, and the one slip of the text without which all is right, where there is one.
-pub(super) fn slip(evidence: &Evidence<'_>) -> (Option<Finding>, Option<Located>) {
+/// The places that have to be mended, and the one slip of the text without which all is right, where there is one.
+pub(super) fn slip(evidence: &Evidence<'_>) -> (Vec<Finding>, Option<Located>) {
     let both = |search: &mut Search<'_, '_>| {
         let findings = search.findings();
         // What is thrown away or written over is a slip of its own.
         let is_value = findings.first().is_none_or(|first| !matches!(first.flaw, Flaw::ThrownAway | Flaw::Overwrites));
         let slip = if is_value { search.slip(&findings) } else { None };
-        (findings.into_iter().next(), slip)
+        (findings, slip)
     };
     within(evidence, evidence.assignment, &[], &[], both).unwrap_or_default()
 }
@@ -146,9 +151,8 @@ pub(super) fn added_lines(evidence: &Evidence<'_>) -> Vec<String> {
     within(evidence, evidence.assignment, &[], &[], |search| search.added_lines()).unwrap_or_default()
 }
 
-/// The one place that all is mended at, where there is such a place.
-pub(super) fn only(evidence: &Evidence<'_>, assignment: &Assignment) -> Option<Finding> {
-    let findings = within(evidence, assignment, &[], &[], |search| search.findings())?;
+/// The one place that all is mended at, where these are such a place.
+pub(super) fn only(findings: Vec<Finding>) -> Option<Finding> {
     match <[Finding; 1]>::try_from(findings) {
         Ok([finding]) if finding.is_settled && !finding.is_whole => Some(finding),
         _ => None,

@@ -123,12 +123,12 @@ impl Facts {
         // Of a program of no definitions each change of the text takes as long as some dozens of others.
         let is_quick = wrong.is_none() && evidence.assignment.equation.reads() != Reads::Outputs;
         let is_sought = is_quick && changed.is_empty() && !found.is_empty();
-        let (first, slip) = if is_sought { inside::slip(evidence) } else { Default::default() };
-        let only = match found {
-            [_] => first,
-            [] => None,
-            _ => inside::only(evidence, &theirs),
+        let (findings, slip) = match found {
+            _ if is_sought => inside::slip(evidence),
+            [_, _, ..] => (inside::find_in(evidence, &theirs), None),
+            _ => Default::default(),
         };
+        let only = if found.len() > 1 { inside::only(findings) } else { findings.into_iter().next() };
         // One slip of the text is what the student did, also where it shows as several mistakes, or in what is made of it.
         let mut place = |index| {
             slip.clone().or_else(|| locate::mistake(evidence, &theirs, &mut points, found, index, only.as_ref()))

@@ -97,7 +97,7 @@ impl Grader {
         }
         // What one mistake explains is no mistake in another reading.
         let is_explained = matches!(by_solution.diagnosis.explanation.as_deref(), Some([_]));
-        let least = (!is_explained).then(|| agreeing(evidence));
+        let least = (!is_explained && !self.accepted.is_empty()).then(|| agreeing(evidence));
         let others = self.accepted.iter().rev().filter_map(|(answer, expected)| {
             Some((read_as(answer, expected, evidence, rendering, least)?, answer, expected))
         });
