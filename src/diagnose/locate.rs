@@ -161,21 +161,36 @@ impl<'a> TracedProbes<'a> {
     }
 }
 
+/// What is known of the places of all mistakes together.
+#[derive(Clone, Copy, Default)]
+pub(super) struct KnownPlaces<'k> {
+    /// The one slip of the text without which all is right.
+    pub slip: Option<&'k Located>,
+    /// The one place at which all is mended.
+    pub only: Option<&'k Finding>,
+}
+
 /// Where mistake `index` of those that were found stands: the place of a value, or of what is 0 or missing. `points`: where the
-/// answer is known by definitions. `only`: the one place at which all of them are mended.
+/// answer is known by definitions.
 pub(super) fn mistake(
     evidence: &Evidence<'_>,
     assignment: &Assignment,
     points: &mut Option<TracedProbes<'_>>,
     found: &[FoundMistake],
     index: usize,
-    only: Option<&Finding>,
+    known: KnownPlaces<'_>,
 ) -> Option<Located> {
     let missing = points.as_mut().and_then(|points| points.missing(found, index));
-    if missing.as_ref().is_some_and(|missing| missing.role == MistakeOrigin::Zero) {
+    let is_zero = missing.as_ref().is_some_and(|missing| missing.role == MistakeOrigin::Zero);
+    // One slip of the text is what the student did, also where it shows as several mistakes, or in what is made of it.
+    if let Some(slip) = known.slip {
+        let role = if is_zero { MistakeOrigin::Zero } else { slip.role };
+        return Some(Located { role, ..slip.clone() });
+    }
+    if is_zero {
         return missing;
     }
-    let one = only.cloned().or_else(|| inside::find_one(evidence, assignment, found, index));
+    let one = known.only.cloned().or_else(|| inside::find_one(evidence, assignment, found, index));
     match (missing, one) {
         (_, Some(one)) if one.flaw == Flaw::Overwrites => {
             Some(Located { role: MistakeOrigin::Overwritten, ..one.located() })

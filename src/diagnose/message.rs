@@ -120,19 +120,17 @@ impl Facts {
         let theirs = evidence.assignment.with_constants(&values).unwrap_or_else(|_| evidence.assignment.clone());
         let mut points = TracedProbes::new(evidence, &theirs);
         let wrong = Listed::of(evidence);
-        // Of a program of no definitions each change of the text takes as long as some dozens of others.
-        let is_quick = wrong.is_none() && evidence.assignment.equation.reads() != Reads::Outputs;
-        let is_sought = is_quick && changed.is_empty() && !found.is_empty();
+        // A program of no definitions is known by changes of its text already, which say the line.
+        let has_definitions = evidence.assignment.equation.reads() != Reads::Outputs;
+        let is_sought = wrong.is_none() && has_definitions && changed.is_empty() && !found.is_empty();
         let (findings, slip) = match found {
             _ if is_sought => inside::slip(evidence),
             [_, _, ..] => (inside::find_in(evidence, &theirs), None),
             _ => Default::default(),
         };
         let only = if found.len() > 1 { inside::only(findings) } else { findings.into_iter().next() };
-        // One slip of the text is what the student did, also where it shows as several mistakes, or in what is made of it.
-        let mut place = |index| {
-            slip.clone().or_else(|| locate::mistake(evidence, &theirs, &mut points, found, index, only.as_ref()))
-        };
+        let known = locate::KnownPlaces { slip: slip.as_ref(), only: only.as_ref() };
+        let mut place = |index| locate::mistake(evidence, &theirs, &mut points, found, index, known);
         let listed: Vec<(String, Listed)> = match &wrong {
             Some(wrong) => found.iter().map(|found| (found.id.clone(), wrong.of_mistake(evidence, found))).collect(),
             None => Vec::new(),

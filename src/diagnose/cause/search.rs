@@ -255,7 +255,8 @@ fn is_borne_out(evidence: &Evidence<'_>, found: &[FoundMistake]) -> bool {
     if points.is_none() {
         return true;
     }
-    let mut line = |index: usize| Some(locate::mistake(evidence, assignment, &mut points, found, index, None)?.line);
+    let known = locate::KnownPlaces::default();
+    let mut line = |index: usize| Some(locate::mistake(evidence, assignment, &mut points, found, index, known)?.line);
     let places: Vec<_> = (0..found.len()).map(&mut line).collect();
     let clash = |a: usize, b: usize| assignment.share_a_line(&found[a], &found[b]) && places[a] == places[b];
     places.iter().all(Option::is_some) && !(0..found.len()).any(|b| (0..b).any(|a| clash(a, b)))

@@ -5,29 +5,33 @@
 //! beforehand, names the mistake exactly. Where no change does, one that makes more right and nothing wrong is taken, and the
 //! next one is looked for in the text with it.
 
+mod meaning;
 mod repaired;
 
 pub(in crate::diagnose) use repaired::Repaired;
 
 use super::search::{Search, is_in_place, is_right};
-use super::{Finding, Place, Seen, Stage, TracedProgram, variable};
+use super::{Finding, Place, Seen, Stage, TracedProgram};
 use crate::compare::{COLOUR_TOLERANCE, POSITION_TOLERANCE};
-use crate::diagnose::columns::{is_colour, is_same};
-use crate::diagnose::locate::{Located, MistakeOrigin};
-use crate::diagnose::trials::{FUEL_OF_TRACE, StageChanges};
+use crate::diagnose::columns::is_colour;
+use crate::diagnose::locate::Located;
+use crate::diagnose::trials::{FIRST, FUEL_OF_TRACE, StageChanges};
 use crate::translate;
 use glam::DVec3;
-use reference::interpreter::trace::{Event, Trace, What};
-use reference::interpreter::{Ingredients, Operator, Program, ProgramRepair, Repairable};
+use reference::interpreter::{Ingredients, ProgramRepair, Repairable};
 use reference::traced::Bench;
 
-/// So many changes are tried for one repair, and so many for a second one. Each is compiled, and run at the chosen probes: a hundred
-/// take some 30 ms. Measured on 223 slips: half of the repairs are among the first 77.
-const MOST_TRIED: usize = 450;
-const MOST_TRIED_AFTER: usize = 200;
+/// So many changes are tried for one repair, and so many for a second one. Each is compiled, and run at a few places first: a hundred
+/// take some 15 ms.
+const MOST_TRIED: usize = 1_200;
+const MOST_TRIED_AFTER: usize = 300;
 
 /// So many are tried to find the line of a mistake that is known.
-const MOST_SLIPS: usize = 300;
+const MOST_SLIPS: usize = 2_200;
+
+/// The steps of a try at the first places, and at all: a loop may have no end by it.
+const FUEL_OF_FIRST: u64 = 200_000;
+const FUEL_OF_TRY: u64 = 1_000_000;
 
 /// So many of the changes that make more right are taken as the first of two.
 const MOST_BEGINNINGS: usize = 2;
@@ -53,6 +57,18 @@ enum RepairOutcome {
     Better(Vec<(RepairStep, Seen)>),
 }
 
+/// Which changes are tried, and how many.
+#[derive(Clone, Copy)]
+struct RepairScope<'l> {
+    /// The lines to look at; in the first `near` ones something was found.
+    lines: &'l [(Stage, u32)],
+    near: usize,
+    right: &'l Ingredients,
+    most: usize,
+    /// Whether only one counts that makes all right, and is known to be on its line.
+    is_all: bool,
+}
+
 impl Search<'_, '_> {
     /// The changes that make all right together.
     pub fn repairs(&mut self, findings: &[Finding], goes_on: &mut dyn FnMut() -> bool) -> Vec<Repaired> {
@@ -61,9 +77,7 @@ impl Search<'_, '_> {
             return Vec::new();
         }
         let first = self.first_attempt();
-        let right = self.ingredients();
-        let lines = self.lines(findings);
-        let steps = self.steps(&first, &lines, &right, goes_on).unwrap_or_default();
+        let steps = self.steps(&first, findings, goes_on).unwrap_or_default();
         let mut attempt = first;
         let mut found = Vec::new();
         for step in steps {
@@ -85,8 +99,9 @@ impl Search<'_, '_> {
             return None;
         }
         let attempt = self.first_attempt();
-        let lines = self.lines(findings);
-        match self.step(&attempt, &lines, &self.ingredients(), MOST_SLIPS, &|repair| repair.is_slip) {
+        let (lines, near) = self.lines(findings);
+        let right = &self.ingredients();
+        match self.step(&attempt, RepairScope { lines: &lines, near, right, most: MOST_SLIPS, is_all: true }) {
             RepairOutcome::Right(step) => Some(self.repaired(&attempt, &step)?.located),
             RepairOutcome::Better(_) => None,
         }
@@ -109,11 +124,13 @@ impl Search<'_, '_> {
     fn steps(
         &self,
         attempt: &RepairAttempt,
-        lines: &[(Stage, u32)],
-        right: &Ingredients,
+        findings: &[Finding],
         goes_on: &mut dyn FnMut() -> bool,
     ) -> Option<Vec<RepairStep>> {
-        let better = match self.step(attempt, lines, right, MOST_TRIED, &|_| true) {
+        let (lines, near) = self.lines(findings);
+        let right = &self.ingredients();
+        let scope = RepairScope { lines: &lines, near, right, most: MOST_TRIED, is_all: false };
+        let better = match self.step(attempt, scope) {
             RepairOutcome::Right(step) => return Some(vec![step]),
             RepairOutcome::Better(better) => better,
         };
@@ -122,7 +139,7 @@ impl Search<'_, '_> {
         }
         better.into_iter().take(MOST_BEGINNINGS).find_map(|(first, seen)| {
             let next = RepairAttempt { seen, ..self.after(attempt, &first)? };
-            match self.step(&next, lines, right, MOST_TRIED_AFTER, &|_| true) {
+            match self.step(&next, RepairScope { most: MOST_TRIED_AFTER, ..scope }) {
                 RepairOutcome::Right(second) => Some(vec![first, second]),
                 RepairOutcome::Better(_) => None,
             }
@@ -130,31 +147,36 @@ impl Search<'_, '_> {
     }
 
     /// Tries so many changes once.
-    fn step(
-        &self,
-        attempt: &RepairAttempt,
-        lines: &[(Stage, u32)],
-        right: &Ingredients,
-        most: usize,
-        is_taken: &dyn Fn(&ProgramRepair) -> bool,
-    ) -> RepairOutcome {
+    fn step(&self, attempt: &RepairAttempt, scope: RepairScope<'_>) -> RepairOutcome {
         let mut better: Vec<(usize, RepairStep, Seen)> = Vec::new();
         let before = self.right_channels(&attempt.seen);
+        let first = &self.places[..self.places.len().min(FIRST)];
+        let is_worse = |now: &[bool]| before.iter().zip(now).any(|(before, now)| *before && !now);
         let (mut tried, mut verified) = (0, 0);
-        let mut stages: Vec<Stage> = lines.iter().map(|(stage, _)| *stage).collect();
+        let mut stages: Vec<Stage> = scope.lines.iter().map(|(stage, _)| *stage).collect();
         stages.dedup();
         for stage in stages {
             let Some((_, text)) = attempt.texts.iter().find(|(own, _)| *own == stage) else { continue };
-            let own: Vec<u32> = lines.iter().filter(|(of, _)| *of == stage).map(|(_, line)| *line).collect();
-            for repair in text.repairs(&own, right).into_iter().filter(is_taken) {
+            let own: Vec<u32> = scope.lines.iter().filter(|(of, _)| *of == stage).map(|(_, line)| *line).collect();
+            let near = scope.lines[..scope.near].iter().filter(|(of, _)| *of == stage).count();
+            let all = text.repairs(&own, near, scope.right).into_iter();
+            for repair in all.filter(|repair| !scope.is_all || repair.is_of_its_line()) {
                 tried += 1;
-                if tried > most {
+                if tried > scope.most {
                     break;
                 }
                 let Some(program) = text.program(&repair).and_then(|own| attempt.program.with(stage, own)) else {
                     continue;
                 };
-                let Some(seen) = self.shown(&program, self.places) else { continue };
+                let Some(seen) = self.shown(&program, first, FUEL_OF_FIRST) else { continue };
+                let is_no_use = match scope.is_all {
+                    true => !is_right(self.wanted, &seen, first.len()),
+                    false => is_worse(&self.right_channels(&seen)),
+                };
+                if is_no_use {
+                    continue;
+                }
+                let Some(seen) = self.shown(&program, self.places, FUEL_OF_TRY) else { continue };
                 if is_right(self.wanted, &seen, self.count) {
                     verified += 1;
                     if verified <= MOST_VERIFIED && self.holds_everywhere(&program) {
@@ -163,9 +185,8 @@ impl Search<'_, '_> {
                     continue;
                 }
                 let now = self.right_channels(&seen);
-                let is_worse = before.iter().zip(&now).any(|(before, now)| *before && !now);
                 let gained = before.iter().zip(&now).filter(|(before, now)| !**before && **now).count();
-                if !is_worse && gained > 0 && is_in_place(self.wanted, &seen, self.count) {
+                if !is_worse(&now) && gained > 0 && is_in_place(self.wanted, &seen, self.count) {
                     better.push((gained, (stage, repair), seen));
                 }
             }
@@ -183,25 +204,29 @@ impl Search<'_, '_> {
         Some(next)
     }
 
-    /// The lines to look at: those of what was found, then those of all that is not right yet, then the rest that it is made of.
-    fn lines(&self, findings: &[Finding]) -> Vec<(Stage, u32)> {
+    /// The lines to look at: those of what was found, then those of all that is not right yet, then the others that it is made of, then
+    /// the rest of what the student wrote. And how many of them are of what was found.
+    fn lines(&self, findings: &[Finding]) -> (Vec<(Stage, u32)>, usize) {
         let mut lines: Vec<(Stage, u32)> = findings.iter().map(|finding| (finding.stage, finding.line)).collect();
         let mut stages = vec![Stage::Vertex, Stage::Fragment];
         stages.sort_by_key(|stage| !findings.iter().any(|finding| finding.stage == *stage));
+        let mut known = std::collections::HashSet::new();
+        lines.retain(|(stage, line)| known.insert((*stage as usize, *line)));
+        lines.sort_by_key(|(stage, _)| lines_of_stage(findings, *stage));
+        let near = lines.len();
         for stage in stages {
             let suspects = self.suspects(stage);
             let own = suspects.iter().filter(|one| self.is_students(stage, one));
             let (wrong, right): (Vec<_>, Vec<_>) = own.partition(|one| !one.is_right && !one.gives_right);
-            lines.extend(wrong.into_iter().chain(right).map(|one| (stage, self.site(stage, one).line)));
+            let suspected = wrong.into_iter().chain(right).map(|one| (stage, self.site(stage, one).line));
+            let all = suspected.chain(self.students_lines(stage).map(|line| (stage, line)));
+            lines.extend(all.filter(|(stage, line)| known.insert((*stage as usize, *line))));
         }
-        let mut known = std::collections::HashSet::new();
-        lines.retain(|(stage, line)| known.insert((*stage as usize, *line)));
-        lines.sort_by_key(|(stage, _)| lines_of_stage(findings, *stage));
-        lines
+        (lines, near)
     }
 
-    fn shown(&self, program: &TracedProgram, places: &[Place<'_>]) -> Option<Seen> {
-        Bench::new(self.assignment, program, places, self.in_quads, FUEL_OF_TRACE)?.with(&StageChanges::default())
+    fn shown(&self, program: &TracedProgram, places: &[Place<'_>], fuel: u64) -> Option<Seen> {
+        Bench::new(self.assignment, program, places, self.in_quads, fuel)?.with(&StageChanges::default())
     }
 
     /// For each place and channel whether it is right.
@@ -217,7 +242,7 @@ impl Search<'_, '_> {
         let [judging, fresh] = all.map(|probes| {
             let places: Vec<Place<'_>> =
                 probes.iter().map(|probe| Place { probe, uniforms: probes.uniforms(probe) }).collect();
-            let seen = self.shown(program, &places)?;
+            let seen = self.shown(program, &places, FUEL_OF_TRACE)?;
             let is_right = |(place, (colour, position)): (&Place<'_>, (&DVec3, &glam::DVec4))| {
                 let largest = place.probe.position.abs().max_element().max(f64::MIN_POSITIVE);
                 let is_there = self.assignment.equation.reads() != reference::equation::Reads::Attributes
@@ -230,100 +255,6 @@ impl Search<'_, '_> {
         let (Some(judging), Some(fresh)) = (judging, fresh) else { return false };
         judging.iter().all(|is| *is) && !self.evidence.fresh.is_contradicted(|place| !fresh[place])
     }
-
-    /// What is known of a change.
-    fn repaired(&self, attempt: &RepairAttempt, (stage, repair): &RepairStep) -> Option<Repaired> {
-        let (_, text) = attempt.texts.iter().find(|(own, _)| own == stage)?;
-        let marked = attempt.program.with(*stage, text.traced(repair)?)?;
-        let (_, mut traces) = Bench::new(self.assignment, &marked, self.places, self.in_quads, FUEL_OF_TRACE)?
-            .trace(&StageChanges::default())?;
-        let trace = traces[*stage as usize].take()?;
-        let program = marked.stage(*stage);
-        let added = repair.added.as_deref().and_then(|name| self.meant_by(*stage, program, &trace, name));
-        let judged = |name: &String| self.assignment.rubric.iter().any(|line| line.judges == *name);
-        let (operator, definition) = match added.filter(judged) {
-            // What the text has already is not left out: it is short of another part.
-            Some(term) if repair.mistake == Operator::AddendLeftOut && !self.computes(&term) => {
-                (Operator::LeftOut, Some(term))
-            }
-            _ => match self.definition_at(*stage, program, &trace, repair.mistake) {
-                // A factor of a part is none of the whole.
-                found if is_number_too_many(repair) && !matches!(found, Some((_, true))) => {
-                    (Operator::OtherNumber, found.map(|(name, _)| name))
-                }
-                found => (repair.mistake, found.map(|(name, _)| name)),
-            },
-        };
-        let mistake = self.assignment.repaired(operator, definition.as_deref(), repair.is_bound_by_zero);
-        let marks = program.sites().iter().position(|site| site.line == ProgramRepair::MARK);
-        let name = marks.and_then(|site| variable(program.sites(), site));
-        Some(Repaired {
-            mistake,
-            located: Located { line: repair.line, name, role: MistakeOrigin::Wrong, stage: Some(*stage) },
-            texts: repair.texts.clone(),
-            touches: definition.map_or_else(Vec::new, |name| self.quantities.spoilt_by(*stage, &name)),
-        })
-    }
-
-    /// The definition of the right answer that a value comes to first which is computed from what was changed, and whether it is
-    /// what was changed itself.
-    fn definition_at(
-        &self,
-        stage: Stage,
-        program: &Program,
-        trace: &Trace,
-        mistake: Operator,
-    ) -> Option<(String, bool)> {
-        let sites = program.sites();
-        // Another value is the wrong one in what is made of it.
-        let is_of_use = matches!(
-            mistake,
-            Operator::OtherValue | Operator::OtherMatrix | Operator::OtherComponents | Operator::OtherNumber
-        );
-        let mut is_reached = vec![false; trace.events.len()];
-        for (number, event) in trace.events.iter().enumerate() {
-            let is_marked = sites[event.site].line == ProgramRepair::MARK;
-            is_reached[number] = is_marked || event.from.iter().any(|from| is_reached[*from]);
-            if !is_reached[number] || is_marked && is_of_use {
-                continue;
-            }
-            let is_given = matches!(sites[event.site].what, What::Assign { .. });
-            if let Some(name) = self.named(stage, event, is_given) {
-                return Some((name, is_marked));
-            }
-        }
-        None
-    }
-
-    /// The definition that a name of the text or of the right answer stands for.
-    fn meant_by(&self, stage: Stage, program: &Program, trace: &Trace, name: &str) -> Option<String> {
-        if self.quantities.all.iter().any(|own| own.stage == stage && own.names.iter().any(|own| own == name)) {
-            return Some(name.to_owned());
-        }
-        let gives =
-            |event: &&Event| matches!(&program.sites()[event.site].what, What::Assign { name: own, .. } if own == name);
-        trace.events.iter().filter(gives).find_map(|event| self.named(stage, event, true))
-    }
-
-    /// The definition that a value is. `is_given`: a value that is the same everywhere counts as well.
-    fn named(&self, stage: Stage, event: &Event, is_given: bool) -> Option<String> {
-        let is_it = |own: &&super::quantities::Quantity| {
-            own.stage == stage
-                && !own.names.is_empty()
-                && (is_given || !own.is_constant)
-                && own.turns.iter().any(|turn| is_same(event, turn))
-        };
-        self.quantities.all.iter().find(is_it)?.names.first().cloned()
-    }
-}
-
-/// Whether a number goes that something is multiplied by, or that is added to it.
-fn is_number_too_many(repair: &ProgramRepair) -> bool {
-    let [before, after] = &repair.texts;
-    let is_number = |word: &str| word.starts_with(|c: char| c.is_ascii_digit() || c == '.');
-    let mut gone = before.split(|c: char| !(c.is_ascii_alphanumeric() || "_.".contains(c)));
-    matches!(repair.mistake, Operator::Scaled | Operator::Shifted)
-        && gone.all(|word| word.is_empty() || after.contains(word) || is_number(word))
 }
 
 /// Stages in which something was found come first.

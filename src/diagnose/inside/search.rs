@@ -5,6 +5,7 @@ use super::quantities::Quantity;
 use super::walk::{Suspect, made_of, roots, suspects};
 use super::*;
 use crate::diagnose::trials::{StageChanges, Trials};
+use crate::source::Source;
 use reference::interpreter::{Program, Scalar};
 
 /// What makes no difference to a product or a sum.
@@ -177,10 +178,24 @@ impl Search<'_, '_> {
     /// Whether the student wrote the line: what was handed out is right.
     pub fn is_students(&self, stage: Stage, suspect: &Suspect) -> bool {
         let line = self.site(stage, suspect).line;
-        let starter = self.evidence.assignment.files.iter().find(|file| Stage::from(file.stage) == stage);
-        let source = self.evidence.sources.iter().find(|(own, _)| *own == stage);
-        let (Some(starter), Some((_, source))) = (starter, source) else { return true };
-        line == 0 || line > source.line_count() || !is_handed_out(source, line, starter.starter_shader())
+        let Some((starter, source)) = self.texts(stage) else { return true };
+        line == 0 || line > source.line_count() || !is_handed_out(source, line, starter)
+    }
+
+    /// The lines of a stage that the student wrote, the last first: less is made of what they compute.
+    pub fn students_lines(&self, stage: Stage) -> impl Iterator<Item = u32> {
+        let texts = self.texts(stage);
+        let count = texts.map_or(0, |(_, source)| source.line_count());
+        (1..=count)
+            .rev()
+            .filter(move |line| texts.is_some_and(|(starter, source)| !is_handed_out(source, *line, starter)))
+    }
+
+    /// What was handed out of a stage, and what was handed in.
+    fn texts(&self, stage: Stage) -> Option<(&str, &Source)> {
+        let starter = self.evidence.assignment.files.iter().find(|file| Stage::from(file.stage) == stage)?;
+        let (_, source) = self.evidence.sources.iter().find(|(own, _)| *own == stage)?;
+        Some((starter.starter_shader(), source))
     }
 
     /// What has to stand in a place for all to be right, where the place is to blame.

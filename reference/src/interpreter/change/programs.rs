@@ -118,6 +118,7 @@ fn found(items: &[Item], is_part: &dyn Fn(&str) -> bool) -> Vec<PlacedSlip> {
         &mut items,
         &mut TreeWalk {
             is_part,
+            declares: false,
             bound: &mut |own, names| {
                 let changes = changes_of(own, names).into_iter();
                 // Any other slip may be a loop without an end.
@@ -203,6 +204,7 @@ fn with(items: &[Item], slip: &PlacedSlip, is_part: &dyn Fn(&str) -> bool) -> Ve
         &mut items,
         &mut TreeWalk {
             is_part,
+            declares: false,
             bound: &mut |own, _| {
                 if let PlacedSlip::Bound(at, change) = slip
                     && *at == bound
@@ -241,9 +243,9 @@ pub(super) fn guess(expression: &Expression, names: &[(Expression, Type)]) -> Op
     match &expression.kind {
         ExpressionKind::Floating(_, false) => Some(Type::FLOAT),
         ExpressionKind::Integer(_, false) => Some(Type::INT),
-        ExpressionKind::Name(_) => {
-            let text = written(expression);
-            names.iter().find(|(name, _)| written(name) == text).map(|(_, kind)| kind.clone())
+        ExpressionKind::Name(own) => {
+            let is_it = |name: &Expression| matches!(&name.kind, ExpressionKind::Name(name) if name == own);
+            names.iter().find(|(name, _)| is_it(name)).map(|(_, kind)| kind.clone())
         }
         ExpressionKind::Unary(_, of) => guess(of, names),
         ExpressionKind::Comma(all) => guess(all.last()?, names),

@@ -4,28 +4,32 @@
 //! its functions with what else they are given, its numbers.
 
 mod copies;
+mod expressions;
 mod ingredients;
 mod size;
+mod undone;
 
-use super::inverse::{mistake_of, of_statement};
-use super::programs::{guess, left_out, of_name};
-use super::tree::{ExpressionPlace, Path, TreeWalk, TypedNames, operands, paths, walk, with};
-use super::{Change, NameScope, Operator, changes, written};
-use crate::interpreter::syntax::{Expression, ExpressionKind, Item, StatementKind};
-use crate::interpreter::types::Type;
+use super::inverse::of_statement;
+use super::programs::left_out;
+use super::tree::{ExpressionPlace, Path, TreeWalk, TypedNames, paths, walk, with};
+use super::{Operator, written};
+use crate::interpreter::syntax::{Expression, ExpressionKind, Item, Name, Statement, StatementKind};
 use crate::interpreter::{Program, Refusal, Stage, compile, parse, text};
-use copies::{copied, replace_copies};
+use copies::{copied, together};
+use expressions::of_expression;
 pub use ingredients::Ingredients;
 use size::{size, tokens};
-use std::collections::{HashMap, HashSet};
+use std::cell::{Cell, RefCell};
+use std::collections::HashSet;
 
 /// A program that is to be repaired.
 #[derive(Clone, Debug)]
 pub struct Repairable {
     items: Vec<Item>,
-    /// The bytes of the text at which something is written that a macro writes several times, and whether all copies are the same: of an
-    /// argument they are, of a macro's body with arguments in it they are not.
-    copied: HashMap<u32, bool>,
+    /// The bytes of the text at which something is written that a macro writes several times.
+    copied: HashSet<u32>,
+    /// The members of the structures that it declares.
+    members: Vec<Name>,
     version: u32,
     stage: Stage,
 }
@@ -43,17 +47,18 @@ pub struct ProgramRepair {
     pub added: Option<String>,
     /// Whether it undoes a slip of what is written, and takes nothing from the right answer.
     pub is_slip: bool,
+    /// Whether it makes something of a value where it is only passed on.
+    is_of_use: bool,
     /// What is written there, and what belongs there; empty for a statement that goes.
     pub texts: [String; 2],
-    /// The byte of the text at which that is written, as [`Expression::at`].
-    at: u32,
     place: Where,
 }
 
 #[derive(Clone, Debug)]
 enum Where {
-    /// The expression with this number, in the order of a walk, the place in it, and what it is instead.
-    Expression(usize, Path, Expression),
+    /// The expressions with these numbers, in the order of a walk, the places in them, and what they are instead: one, or all copies of
+    /// what a macro writes.
+    Expressions(Vec<(usize, Path, Expression)>),
     /// The statement with this number goes.
     Statement(usize),
 }
@@ -61,10 +66,35 @@ enum Where {
 impl ProgramRepair {
     /// The line of what was changed, in a program that was made to be traced.
     pub const MARK: u32 = u32::MAX;
-}
 
-/// Most changes of the expressions of one line.
-const MOST_OF_LINE: usize = 500;
+    /// How many words and signs it takes away and puts there, and whether it puts any there.
+    fn size(&self) -> (usize, bool) {
+        match self.place {
+            Where::Expressions(_) => size(&self.texts),
+            Where::Statement(_) => (tokens(&self.texts[0]).len(), false),
+        }
+    }
+
+    /// Whether it is a slip wherever it stands: something is exchanged, or has another sign, or is compared the other way.
+    fn is_smallest(&self) -> bool {
+        let is_one_of =
+            |signs: &str| self.texts.iter().all(|text| tokens(text).iter().any(|token| signs.contains(token)));
+        let most = match self.mistake {
+            Operator::OtherOperator if is_one_of("+-") || is_one_of("<>") => 2,
+            // Of a matrix and a vector it is another matrix.
+            Operator::Exchanged if self.texts[0].contains(" * ") => return false,
+            _ => 1,
+        };
+        self.is_slip && self.size().0 <= most
+    }
+
+    /// Whether the line of what is wrong is known by it: not where a value only is used, or a part of a sum is missing.
+    pub fn is_of_its_line(&self) -> bool {
+        let is_elsewhere =
+            matches!(self.mistake, Operator::AddendLeftOut | Operator::OtherValue | Operator::OtherNumber);
+        self.is_slip || !self.is_of_use && !is_elsewhere
+    }
+}
 
 /// No slip takes away or adds more words and signs.
 const LARGEST: usize = 24;
@@ -78,72 +108,70 @@ impl Repairable {
         let preprocessed = text::preprocess(source)?;
         let tokens: Vec<_> = preprocessed.tokens.into_iter().map(text::Token::on_its_line).collect();
         let mut items = parse::parse(&tokens)?;
-        let copied = copied(&mut items);
-        Ok(Self { items, copied, version: preprocessed.version, stage })
+        let (copied, members) = (copied(&mut items), undone::members(&items));
+        Ok(Self { items, copied, members, version: preprocessed.version, stage })
     }
 
-    /// The changes of what stands on these lines: those of the first line first, the smaller ones before others.
-    pub fn repairs(&self, lines: &[u32], right: &Ingredients) -> Vec<ProgramRepair> {
-        let mut found: Vec<(usize, (usize, bool), ProgramRepair)> = Vec::new();
-        let (mut expression, mut statement) = (0, 0);
-        let rank = |own: &[u32]| lines.iter().position(|line| own.contains(line));
+    /// The changes of what stands on these lines. What is only exchanged, or has another sign, comes first; then what stands on the first
+    /// `near` lines; then the slips of what is written on the others; then what takes something from the right answer; then what is made
+    /// of a value only where it is used. Of each the smaller ones come first.
+    pub fn repairs(&self, lines: &[u32], near: usize, right: &Ingredients) -> Vec<ProgramRepair> {
+        let mut found: Vec<(u32, ProgramRepair)> = Vec::new();
         let mut statements = Vec::new();
+        let (expression, mut statement) = (Cell::new(0), 0);
+        let is_sought =
+            |own: &Expression| paths(own).iter().any(|path| lines.contains(&ExpressionPlace::of(own, path).own.line));
+        let branches = RefCell::new(Branches::default());
+        let found_at = RefCell::new(&mut found);
+        let mut look = |own: &Expression, names: &TypedNames, is_bound: bool| {
+            let number = expression.replace(expression.get() + 1);
+            let before = branches.borrow_mut().before.take();
+            if is_sought(own) {
+                let mut found = found_at.borrow_mut();
+                found.extend(of_expression(own, number, names, right, &self.members).into_iter().filter(
+                    |(_, repair)| {
+                        // Other bounds may have no end.
+                        !is_bound || repair.is_slip
+                    },
+                ));
+                found.extend(before.map(|before| without_else(&before, own, number)));
+            }
+        };
+        let look = RefCell::new(&mut look);
         walk(
             &mut self.items.clone(),
             &mut TreeWalk {
                 is_part: &|_| true,
-                bound: &mut |_, _| {},
+                declares: true,
+                bound: &mut |own, names| look.borrow_mut()(own, names, true),
                 statement: &mut |own, _| {
-                    let name = left_out(own).filter(|_| !matches!(own.kind, StatementKind::Empty));
-                    if let Some(rank) = name.and_then(|_| rank(&[own.line])) {
-                        let written = match &own.kind {
-                            StatementKind::Expression(expression) => written(expression),
-                            _ => String::new(),
-                        };
-                        statements.push((
-                            rank,
-                            (tokens(&written).len(), false),
-                            ProgramRepair {
-                                mistake: of_statement(own),
-                                line: own.line,
-                                is_bound_by_zero: false,
-                                added: None,
-                                is_slip: true,
-                                texts: [written, String::new()],
-                                at: 0,
-                                place: Where::Statement(statement),
-                            },
-                        ));
-                    }
+                    branches.borrow_mut().meet(own);
+                    statements.extend(without(own, statement));
                     statement += 1;
                 },
-                expression: &mut |own, _, names| {
-                    let number = expression;
-                    expression += 1;
-                    let own_lines: Vec<u32> =
-                        paths(own).iter().map(|path| ExpressionPlace::of(own, path).own.line).collect();
-                    if let Some(rank) = rank(&own_lines) {
-                        let all = of_expression(own, number, names, right);
-                        let sized = all.into_iter().map(|repair| (rank, size(&repair.texts), repair));
-                        found.extend(sized.filter(|(_, (size, _), _)| *size <= LARGEST));
-                    }
-                },
+                expression: &mut |own, _, names| look.borrow_mut()(own, names, false),
             },
         );
-        found.extend(statements);
-        found.sort_by_key(|(rank, size, repair)| (*rank, *size, repair.mistake));
-        // Copies are changed together, or not at all.
-        let mut known = HashSet::new();
-        found.retain(|(.., repair)| match self.copied.get(&repair.at) {
-            Some(is_same) => *is_same && known.insert((repair.at, repair.texts.clone())),
-            None => true,
+        let rank = |line: u32| lines.iter().position(|own| *own == line);
+        let mut all = together(found, &self.copied);
+        all.extend(statements);
+        let ranked = all.into_iter().filter_map(|repair| {
+            let rank = rank(repair.line)?;
+            let size = repair.size();
+            // A function around a value is one slip, whatever else it is given.
+            let is_call = !repair.is_slip && repair.mistake <= Operator::CallLeftOut;
+            let key = match &repair {
+                ProgramRepair { is_of_use: true, .. } => (4, size, rank),
+                _ if repair.is_smallest() => (0, (0, false), rank),
+                _ if rank < near => (1, size, rank),
+                ProgramRepair { is_slip: true, .. } => (2, size, rank),
+                _ => (3, if is_call { (0, true) } else { size }, rank),
+            };
+            (size.0 <= LARGEST).then_some(((key, repair.mistake), repair))
         });
-        let mut counts = vec![0; lines.len()];
-        found.retain(|(rank, ..)| {
-            counts[*rank] += 1;
-            counts[*rank] <= MOST_OF_LINE
-        });
-        found.into_iter().map(|(.., repair)| repair).collect()
+        let mut ranked: Vec<_> = ranked.collect();
+        ranked.sort_by_key(|(key, _)| *key);
+        ranked.into_iter().map(|(_, repair)| repair).collect()
     }
 
     /// The program with a change in it; none where it is no program.
@@ -160,104 +188,97 @@ impl Repairable {
 
     /// What is to be repaired further.
     pub fn with(&self, repair: &ProgramRepair) -> Self {
-        Self { items: self.items_with(repair, false), copied: self.copied.clone(), ..*self }
+        Self {
+            items: self.items_with(repair, false),
+            copied: self.copied.clone(),
+            members: self.members.clone(),
+            ..*self
+        }
     }
 
     fn items_with(&self, repair: &ProgramRepair, is_marked: bool) -> Vec<Item> {
         let mut items = self.items.clone();
-        let (mut expression, mut statement) = (0, 0);
+        let (expression, mut statement) = (Cell::new(0), 0);
+        let put = |own: &mut Expression| {
+            let number = expression.replace(expression.get() + 1);
+            let Where::Expressions(places) = &repair.place else { return };
+            for (_, path, changed) in places.iter().filter(|(at, ..)| *at == number) {
+                *own = with(own, path, if is_marked { marked(changed) } else { changed.clone() });
+            }
+        };
         walk(
             &mut items,
             &mut TreeWalk {
                 is_part: &|_| true,
-                bound: &mut |_, _| {},
+                declares: true,
+                bound: &mut |own, _| put(own),
                 statement: &mut |own, _| {
                     if matches!(repair.place, Where::Statement(at) if at == statement) {
                         own.kind = StatementKind::Empty;
                     }
                     statement += 1;
                 },
-                expression: &mut |own, _, _| {
-                    if let Where::Expression(at, path, changed) = &repair.place {
-                        let changed = if is_marked { marked(changed) } else { changed.clone() };
-                        if self.copied.contains_key(&repair.at) {
-                            replace_copies(own, repair, &changed);
-                        } else if *at == expression {
-                            *own = with(own, path, changed);
-                        }
-                    }
-                    expression += 1;
-                },
+                expression: &mut |own, _, _| put(own),
             },
         );
         items
     }
 }
 
-/// The changes of an expression.
-fn of_expression(own: &Expression, number: usize, names: &TypedNames, right: &Ingredients) -> Vec<ProgramRepair> {
-    let known = names.iter().rev().filter_map(|(name, kind)| Some((of_name(name, own.line), Type::named(kind)?)));
-    let typed: Vec<(Expression, Type)> = known.collect();
-    let theirs = &typed;
-    let mut kind = |expression: &Expression| guess(expression, theirs);
-    let scope = &mut NameScope { names: &typed, constants: &HashSet::new(), kind: &mut kind, free: false };
-    let slips = changes(own, scope).into_iter().filter(|change| change.operator != Operator::WholeNumbers);
-    let mut found: Vec<ProgramRepair> = slips.map(|change| of_slip(own, number, change)).collect();
-    for path in paths(own) {
-        let place = ExpressionPlace::of(own, &path);
-        let Some(kind) = guess(place.own, theirs) else { continue };
-        let is_whole = place.parent.is_none_or(is_statement);
-        for added in right.changes(&place, &kind, is_whole, theirs) {
-            found.push(ProgramRepair {
-                mistake: added.mistake,
-                line: place.own.line,
-                is_bound_by_zero: added.is_bound_by_zero,
-                added: added.name,
-                is_slip: false,
-                texts: [written(place.own), written(&added.expression)],
-                at: place.own.at,
-                place: Where::Expression(number, path.clone(), added.expression),
-            });
+/// The branches that a walk meets.
+#[derive(Default)]
+struct Branches {
+    /// The condition of the last one that nothing else is done without.
+    last: Option<Expression>,
+    /// The one before that of the condition that is met next.
+    before: Option<Expression>,
+}
+
+impl Branches {
+    fn meet(&mut self, statement: &Statement) {
+        self.before = None;
+        if let StatementKind::If(condition, _, no) = &statement.kind {
+            self.before = self.last.take();
+            self.last = no.is_none().then(|| condition.clone());
         }
     }
-    let mut known = HashSet::new();
-    found.sort_by_key(|repair| repair.mistake);
-    found.retain(|repair| match &repair.place {
-        Where::Expression(_, path, changed) => known.insert(written(&with(own, path, changed.clone()))),
-        Where::Statement(_) => true,
-    });
-    found
 }
 
-/// Whether an expression is a whole statement, so that its operand is a whole value.
-fn is_statement(parent: &Expression) -> bool {
-    matches!(parent.kind, ExpressionKind::Assign(..))
-}
-
-fn of_slip(own: &Expression, number: usize, change: Change) -> ProgramRepair {
-    let mistake = mistake_of(own, &change);
-    let at = |root: &Expression| {
-        let mut place = root;
-        for step in &change.path {
-            match operands(place).get(*step) {
-                Some(next) => place = next,
-                None => break,
-            }
-        }
-        place.clone()
-    };
-    let (before, after) = (at(own), at(&change.expression));
-    let is_bound_by_zero = change.is_bound_by_zero || super::calls::is_bound_by_zero(&after);
-    ProgramRepair {
-        mistake,
-        line: line_of(&before, &after),
-        is_bound_by_zero,
+/// A branch that is taken only where the one before it is not.
+fn without_else(before: &Expression, own: &Expression, number: usize) -> (u32, ProgramRepair) {
+    let place = Where::Expressions(vec![(number, Path::new(), undone::with_else(before, own))]);
+    let text = written(own);
+    let texts = [format!("if ({text})"), format!("else if ({text})")];
+    let repair = ProgramRepair {
+        mistake: Operator::StatementLeftOut,
+        line: own.line,
+        is_bound_by_zero: false,
         added: None,
         is_slip: true,
-        texts: [written(&before), written(&after)],
-        at: before.at,
-        place: Where::Expression(number, change.path, after),
-    }
+        is_of_use: false,
+        texts,
+        place,
+    };
+    (own.at, repair)
+}
+
+/// The program without a statement.
+fn without(own: &Statement, number: usize) -> Option<ProgramRepair> {
+    left_out(own).filter(|_| !matches!(own.kind, StatementKind::Empty))?;
+    let text = match &own.kind {
+        StatementKind::Expression(expression) => written(expression),
+        _ => String::new(),
+    };
+    Some(ProgramRepair {
+        mistake: of_statement(own),
+        line: own.line,
+        is_bound_by_zero: false,
+        added: None,
+        is_slip: true,
+        is_of_use: false,
+        texts: [text, String::new()],
+        place: Where::Statement(number),
+    })
 }
 
 /// The expression on the line [`ProgramRepair::MARK`], the last operator of a chain among it.
@@ -269,17 +290,4 @@ fn marked(changed: &Expression) -> Expression {
         *line = ProgramRepair::MARK;
     }
     marked
-}
-
-/// The line of what a change is about: in a chain of operators, that of the first one at which it is another chain.
-fn line_of(before: &Expression, after: &Expression) -> u32 {
-    let (ExpressionKind::Chain(first, own), ExpressionKind::Chain(other, theirs)) = (&before.kind, &after.kind) else {
-        return before.line;
-    };
-    let pairs = own.iter().zip(theirs);
-    let same = pairs.take_while(|((a, _, own), (b, _, other))| a == b && written(own) == written(other)).count();
-    match own.get(same) {
-        Some((_, line, _)) if written(first) == written(other) => *line,
-        _ => before.line,
-    }
 }

@@ -50,9 +50,10 @@ pub(super) fn operands(expression: &Expression) -> Vec<&Expression> {
         }
         ExpressionKind::Assign(_, _, from) => vec![from],
         ExpressionKind::Conditional(condition, yes, no) => vec![condition, yes, no],
-        ExpressionKind::Comma(all) | ExpressionKind::Call(_, all) | ExpressionKind::ArrayConstructor(_, all) => {
-            all.iter().collect()
-        }
+        ExpressionKind::Comma(all)
+        | ExpressionKind::Call(_, all)
+        | ExpressionKind::ArrayConstructor(_, all)
+        | ExpressionKind::List(all) => all.iter().collect(),
         ExpressionKind::Index(of, index) => vec![of, index],
         _ => Vec::new(),
     }
@@ -65,9 +66,10 @@ fn operand_mut(expression: &mut Expression, at: usize) -> Option<&mut Expression
         ExpressionKind::Chain(_, others) => others.get_mut(at - 1).map(|(_, _, other)| other),
         ExpressionKind::Assign(_, _, from) => Some(from),
         ExpressionKind::Conditional(condition, yes, no) => Some([condition, yes, no].into_iter().nth(at)?),
-        ExpressionKind::Comma(all) | ExpressionKind::Call(_, all) | ExpressionKind::ArrayConstructor(_, all) => {
-            all.get_mut(at)
-        }
+        ExpressionKind::Comma(all)
+        | ExpressionKind::Call(_, all)
+        | ExpressionKind::ArrayConstructor(_, all)
+        | ExpressionKind::List(all) => all.get_mut(at),
         ExpressionKind::Index(of, index) => Some(if at == 0 { of } else { index }),
         _ => None,
     }
@@ -93,6 +95,8 @@ pub type TypedNames = [(Name, Name)];
 pub struct TreeWalk<'w> {
     /// Whether the function of a name is gone through.
     pub is_part: &'w dyn Fn(&str) -> bool,
+    /// Whether what is declared outside of functions with a value is gone through.
+    pub declares: bool,
     /// What is called for every statement: may replace it. The names that are known there, with the names of their types.
     pub statement: &'w mut dyn FnMut(&mut Statement, &TypedNames),
     /// What is called for every expression that is not part of another, with the variable that it gives a value to.
@@ -107,8 +111,10 @@ pub fn walk(items: &mut [Item], walk: &mut TreeWalk<'_>) {
     for item in items {
         match item {
             Item::Declaration(declaration) => {
-                if declaration.qualifiers.storage != StorageQualifier::Output {
-                    declared(declaration, &mut names);
+                let known = names.len();
+                of_declaration(declaration, walk, walk.declares, &mut names);
+                if declaration.qualifiers.storage == StorageQualifier::Output {
+                    names.truncate(known);
                 }
             }
             Item::Function(function) if (walk.is_part)(&function.name) => {
@@ -126,6 +132,7 @@ pub(super) fn last_line(statement: &Statement) -> u32 {
     let (mut of_expressions, mut of_statements) = (statement.line, statement.line);
     let mut all = TreeWalk {
         is_part: &|_| true,
+        declares: false,
         statement: &mut |own, _| of_statements = of_statements.max(own.line),
         expression: &mut |own, _, _| {
             let lines = paths(own).iter().map(|path| ExpressionPlace::of(own, path).own.line).max();
@@ -155,7 +162,7 @@ fn of_statement(statement: &mut Statement, walk: &mut TreeWalk<'_>, names: &mut 
             (walk.expression)(expression, name.as_ref(), names);
         }
         StatementKind::Declaration(declaration) => {
-            of_declaration(declaration, walk, names);
+            of_declaration(declaration, walk, true, names);
             return;
         }
         StatementKind::Block(all) | StatementKind::Switch(_, all) => {
@@ -187,19 +194,17 @@ fn of_statement(statement: &mut Statement, walk: &mut TreeWalk<'_>, names: &mut 
     names.truncate(known);
 }
 
-fn of_declaration(declaration: &mut Declaration, walk: &mut TreeWalk<'_>, names: &mut Vec<(Name, Name)>) {
+/// Each variable is known to what comes after it. `gives`: whether their values are gone through.
+fn of_declaration(declaration: &mut Declaration, walk: &mut TreeWalk<'_>, gives: bool, names: &mut Vec<(Name, Name)>) {
     for variable in &mut declaration.variables {
-        if let Some(value) = &mut variable.value {
+        if let Some(value) = variable.value.as_mut().filter(|_| gives) {
             (walk.expression)(value, Some(&variable.name), names);
         }
-    }
-    declared(declaration, names);
-}
-
-fn declared(declaration: &Declaration, names: &mut Vec<(Name, Name)>) {
-    if let BaseType::Named(kind) = &declaration.kind.base {
-        let own = declaration.variables.iter().filter(|variable| variable.lengths.is_empty());
-        names.extend(own.map(|variable| (Name::clone(&variable.name), Name::clone(kind))));
+        if let BaseType::Named(kind) = &declaration.kind.base
+            && variable.lengths.is_empty()
+        {
+            names.push((Name::clone(&variable.name), Name::clone(kind)));
+        }
     }
 }
 

@@ -1,8 +1,8 @@
 //! What a right answer is made of, so that it can stand in another program.
 
+use super::super::programs::{guess, of_name};
 use super::super::tree::{ExpressionPlace, TreeWalk, operands, paths, walk, with};
 use super::super::{Operator, bare, calls, floats, is_literal, written};
-use super::{guess, of_name};
 use crate::interpreter::syntax::{BaseType, Binary, Expression, ExpressionKind, Item, Name, StatementKind};
 use crate::interpreter::types::Type;
 use crate::interpreter::{is_builtin, parse, text};
@@ -107,6 +107,7 @@ impl Ingredients {
             &mut items,
             &mut TreeWalk {
                 is_part: &|_| true,
+                declares: false,
                 bound: &mut |_, _| {},
                 statement: &mut |_, _| {},
                 expression: &mut |own, _, names| {
@@ -203,7 +204,7 @@ impl Ingredients {
         let right_values = self
             .values
             .iter()
-            .filter(|value| !value.is_given || !theirs.iter().any(|(name, _)| written(name) == value.name));
+            .filter(|value| !value.is_given || !theirs.iter().any(|(name, _)| is_named(name, &value.name)));
         let right_values = right_values.map(|value| (&value.expression, &value.kind, value.name.clone()));
         for (value, its, name) in their_values.chain(right_values) {
             let Some(width) = floats(Some(its)) else { continue };
@@ -237,6 +238,10 @@ impl Ingredients {
 /// Whether an expression gives its operands to a function.
 fn is_given_on(parent: &Expression) -> bool {
     matches!(parent.kind, ExpressionKind::Call(..) | ExpressionKind::Comma(_))
+}
+
+fn is_named(expression: &Expression, name: &str) -> bool {
+    matches!(&expression.kind, ExpressionKind::Name(own) if **own == *name)
 }
 
 fn bracketed(value: &Expression) -> Expression {

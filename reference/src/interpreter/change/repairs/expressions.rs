@@ -1,0 +1,144 @@
+//! The changes of an expression.
+
+use super::super::inverse::mistake_of;
+use super::super::programs::{guess, of_name};
+use super::super::tree::{ExpressionPlace, TypedNames, operands, paths};
+use super::super::{Change, NameScope, Operator, bare, calls, changes, written};
+use super::undone;
+use super::{Ingredients, ProgramRepair, Where};
+use crate::interpreter::is_builtin;
+use crate::interpreter::syntax::{Binary, Expression, ExpressionKind, Name};
+use crate::interpreter::types::Type;
+use std::collections::HashSet;
+
+/// The changes of an expression, each with the byte at which what it changes is written.
+pub(super) fn of_expression(
+    own: &Expression,
+    number: usize,
+    names: &TypedNames,
+    right: &Ingredients,
+    members: &[Name],
+) -> Vec<(u32, ProgramRepair)> {
+    let known = names.iter().rev().filter_map(|(name, kind)| Some((of_name(name, own.line), Type::named(kind)?)));
+    let typed: Vec<(Expression, Type)> = known.collect();
+    let theirs = &typed;
+    let mut kind = |expression: &Expression| guess(expression, theirs);
+    let scope = &mut NameScope { names: &typed, constants: &HashSet::new(), kind: &mut kind, free: false };
+    let slips = changes(own, scope).into_iter().filter(|change| change.operator != Operator::WholeNumbers);
+    let mut found: Vec<(u32, ProgramRepair)> = slips.map(|change| of_slip(own, number, change)).collect();
+    for path in paths(own) {
+        let place = ExpressionPlace::of(own, &path);
+        let repair = |mistake, expression: Expression| ProgramRepair {
+            mistake,
+            line: line_of(place.own, &expression),
+            is_bound_by_zero: false,
+            added: None,
+            is_slip: true,
+            is_of_use: is_use(place.own) && !is_substitute(mistake),
+            texts: [written(place.own), written(&expression)],
+            place: Where::Expressions(vec![(number, path.clone(), expression)]),
+        };
+        let undone = undone::changes(&place, theirs, members).into_iter();
+        found.extend(undone.map(|(mistake, expression)| (place.own.at, repair(mistake, expression))));
+        let Some(kind) = guess(place.own, theirs) else { continue };
+        let is_whole = place.parent.is_none_or(is_statement);
+        for added in right.changes(&place, &kind, is_whole, theirs) {
+            let repair = ProgramRepair {
+                line: place.own.line,
+                is_bound_by_zero: added.is_bound_by_zero,
+                added: added.name,
+                is_slip: false,
+                is_of_use: is_use(place.own),
+                ..repair(added.mistake, added.expression)
+            };
+            found.push((place.own.at, repair));
+        }
+    }
+    found.sort_by_key(|(_, repair)| repair.mistake);
+    let mut known = HashSet::new();
+    found.retain(|(_, repair)| match &repair.place {
+        Where::Expressions(places) => known.insert((places[0].1.clone(), repair.texts[1].clone())),
+        Where::Statement(_) => true,
+    });
+    found
+}
+
+/// Whether an expression is a whole statement, so that its operand is a whole value.
+fn is_statement(parent: &Expression) -> bool {
+    matches!(parent.kind, ExpressionKind::Assign(..))
+}
+
+fn of_slip(own: &Expression, number: usize, change: Change) -> (u32, ProgramRepair) {
+    let mistake = mistake_of(own, &change);
+    let at = |root: &Expression| {
+        let mut place = root;
+        for step in &change.path {
+            match operands(place).get(*step) {
+                Some(next) => place = next,
+                None => break,
+            }
+        }
+        place.clone()
+    };
+    let (before, after) = (at(own), at(&change.expression));
+    let is_bound_by_zero = change.is_bound_by_zero || calls::is_bound_by_zero(&after);
+    let repair = ProgramRepair {
+        mistake,
+        line: line_of(&before, &after),
+        is_bound_by_zero,
+        added: None,
+        is_slip: true,
+        is_of_use: is_use(&before) && !is_substitute(mistake),
+        texts: [written(&before), written(&after)],
+        place: Where::Expressions(vec![(number, change.path, after)]),
+    };
+    (before.at, repair)
+}
+
+/// Whether an expression only passes on what is made elsewhere in the text.
+fn is_use(own: &Expression) -> bool {
+    match &bare(own).kind {
+        ExpressionKind::Name(_) => true,
+        ExpressionKind::Member(of, _) | ExpressionKind::Index(of, _) => is_use(of),
+        ExpressionKind::Call(name, _) => Type::named(name).is_none() && !is_builtin(name),
+        _ => false,
+    }
+}
+
+/// Whether another value is taken, and nothing made of it.
+fn is_substitute(mistake: Operator) -> bool {
+    matches!(
+        mistake,
+        Operator::OtherValue
+            | Operator::OtherMatrix
+            | Operator::OtherComponents
+            | Operator::OtherNumber
+            | Operator::OtherFunction
+            | Operator::Exchanged
+    )
+}
+
+/// The line of what a change is about: in a chain of operators, that of the first one at which it is another chain; of what is given to a
+/// function, that of the first that is another one.
+fn line_of(before: &Expression, after: &Expression) -> u32 {
+    let differs = |pair: &(&Expression, &Expression)| written(pair.0) != written(pair.1);
+    match (&before.kind, &after.kind) {
+        (ExpressionKind::Chain(first, own), ExpressionKind::Chain(other, theirs)) => {
+            let pairs = own.iter().zip(theirs);
+            let is_same = |(own, other): &(&Operand, &Operand)| own.0 == other.0 && !differs(&(&own.2, &other.2));
+            let same = pairs.take_while(is_same).count();
+            match own.get(same) {
+                Some((_, line, _)) if !differs(&(first, other)) => *line,
+                _ => before.line,
+            }
+        }
+        (ExpressionKind::Call(name, own), ExpressionKind::Call(other, theirs)) if name == other => {
+            let first = own.iter().zip(theirs).find(differs);
+            first.map_or(before.line, |(own, _)| bare(own).line)
+        }
+        _ => before.line,
+    }
+}
+
+/// An operator with its line, and what stands behind it.
+type Operand = (Binary, u32, Expression);

@@ -1,0 +1,142 @@
+//! Slips that are undone in a text, and that nobody makes of a right answer: there they would be another slip, or none.
+
+use super::super::programs::guess;
+use super::super::tree::{ExpressionPlace, operands};
+use super::super::{Operator, bare};
+use crate::interpreter::syntax::{
+    BaseType, Binary, Declaration, Expression, ExpressionKind, Item, Name, TypeName, Unary,
+};
+use crate::interpreter::types::Type;
+
+/// The members of the structures that a program declares.
+pub(super) fn members(items: &[Item]) -> Vec<Name> {
+    let declared = items.iter().filter_map(|item| match item {
+        Item::Declaration(Declaration { kind: TypeName { base: BaseType::Struct(_, members), .. }, .. }) => {
+            Some(members)
+        }
+        _ => None,
+    });
+    let variables = declared.flatten().flat_map(|member| &member.variables);
+    let mut names: Vec<Name> = variables.map(|variable| Name::clone(&variable.name)).collect();
+    names.sort();
+    names.dedup();
+    names
+}
+
+/// What is a number of two vectors, so that another number may be meant.
+const OF_VECTORS: [&str; 3] = ["dot", "length", "distance"];
+
+/// Arguments of a constructor that are exchanged with one another.
+const MOST_ARGUMENTS: usize = 6;
+
+/// The changes at a place: what the student did, and what stands there then.
+pub(super) fn changes(
+    place: &ExpressionPlace<'_>,
+    names: &[(Expression, Type)],
+    members: &[Name],
+) -> Vec<(Operator, Expression)> {
+    let own = place.own;
+    let kind = guess(own, names);
+    let mut found = Vec::new();
+    match &own.kind {
+        ExpressionKind::Assign(None, to, from) => {
+            for (mistake, operator) in
+                [(Operator::AddendLeftOut, Binary::Add), (Operator::FactorLeftOut, Binary::Multiply)]
+            {
+                let kind = ExpressionKind::Assign(Some(operator), to.clone(), from.clone());
+                found.push((mistake, Expression { kind, ..own.clone() }));
+            }
+        }
+        // One that is copied from where it is the first.
+        ExpressionKind::Integer(..) if place.parent.is_some_and(is_index) => {
+            let whole = names.iter().filter(|(_, kind)| *kind == Type::INT);
+            found.extend(whole.map(|(name, _)| (Operator::OtherValue, name.clone())));
+        }
+        ExpressionKind::Call(name, _) if OF_VECTORS.contains(&&**name) => {
+            let numbers = names.iter().filter(|(_, kind)| *kind == Type::FLOAT);
+            found.extend(numbers.map(|(name, _)| (Operator::OtherValue, name.clone())));
+        }
+        ExpressionKind::Call(name, arguments) if Type::named(name).is_some() => {
+            let with = |arguments| Expression { kind: ExpressionKind::Call(name.clone(), arguments), ..own.clone() };
+            found.extend(exchanged(arguments, names).into_iter().map(with).map(|own| (Operator::Exchanged, own)));
+        }
+        ExpressionKind::ArrayConstructor(kind, arguments) => {
+            let with = |arguments| Expression {
+                kind: ExpressionKind::ArrayConstructor(kind.clone(), arguments),
+                ..own.clone()
+            };
+            found.extend(exchanged(arguments, names).into_iter().map(with).map(|own| (Operator::Exchanged, own)));
+        }
+        // Of a vector they are components.
+        ExpressionKind::Member(of, name) if !matches!(guess(of, names), Some(Type::Vector(..))) => {
+            let others = members.iter().filter(|other| *other != name);
+            let member = |other: &Name| Expression {
+                kind: ExpressionKind::Member(of.clone(), Name::clone(other)),
+                ..own.clone()
+            };
+            found.extend(others.map(|other| (Operator::OtherValue, member(other))));
+        }
+        ExpressionKind::Chain(..) => found.extend(floating(own).map(|own| (Operator::WholeNumbers, own))),
+        _ => {}
+    }
+    if matches!(kind, Some(Type::Matrix(_, columns, rows)) if columns == rows) {
+        let call = |name: &str, of| Expression::made(own.line, ExpressionKind::Call(name.into(), vec![of]));
+        let inverse = || call("inverse", own.clone());
+        let turned = [inverse(), call("transpose", own.clone()), call("transpose", inverse())];
+        found.extend(turned.map(|turned| (Operator::CallLeftOut, turned)));
+    }
+    // What a function gives back, or a variable is given.
+    let is_whole =
+        place.is_root() || place.parent.is_some_and(|parent| matches!(parent.kind, ExpressionKind::Assign(..)));
+    if is_whole && !matches!(own.kind, ExpressionKind::Assign(..)) && kind == Some(Type::FLOAT) {
+        let one = Expression::made(own.line, ExpressionKind::Floating(1.0, false));
+        let of = Expression::made(own.line, ExpressionKind::Comma(vec![own.clone()]));
+        let kind = ExpressionKind::Chain(Box::new(one), vec![(Binary::Divide, own.line, of)]);
+        found.push((Operator::OtherOperator, Expression::made(own.line, kind)));
+    }
+    found
+}
+
+/// The condition of a branch that holds only where that of the branch before it does not.
+pub(super) fn with_else(before: &Expression, own: &Expression) -> Expression {
+    let bracket = |of: &Expression| Expression::made(own.line, ExpressionKind::Comma(vec![of.clone()]));
+    let not = Expression::made(own.line, ExpressionKind::Unary(Unary::Not, Box::new(bracket(before))));
+    let kind = ExpressionKind::Chain(Box::new(not), vec![(Binary::And, own.line, bracket(own))]);
+    Expression { kind, ..own.clone() }
+}
+
+fn is_index(parent: &Expression) -> bool {
+    matches!(parent.kind, ExpressionKind::Index(..))
+}
+
+/// The arguments with two of the same type exchanged.
+fn exchanged(arguments: &[Expression], names: &[(Expression, Type)]) -> Vec<Vec<Expression>> {
+    let kinds: Vec<Option<Type>> = arguments.iter().take(MOST_ARGUMENTS).map(|one| guess(one, names)).collect();
+    let pairs = (0..kinds.len()).flat_map(|second| (0..second).map(move |first| (first, second)));
+    let pairs = pairs.filter(|(first, second)| kinds[*first] == kinds[*second]);
+    let swapped = |(first, second)| {
+        let mut arguments = arguments.to_vec();
+        arguments.swap(first, second);
+        arguments
+    };
+    pairs.map(swapped).collect()
+}
+
+/// A quotient of whole numbers as one of floats.
+fn floating(own: &Expression) -> Option<Expression> {
+    let ExpressionKind::Chain(first, others) = &own.kind else { return None };
+    let is_whole = |operand: &&&Expression| matches!(bare(operand).kind, ExpressionKind::Integer(..));
+    let divides = others.iter().any(|(operator, ..)| *operator == Binary::Divide);
+    if !divides || operands(own).iter().filter(is_whole).count() < 2 {
+        return None;
+    }
+    let float = |operand: &Expression| match &bare(operand).kind {
+        ExpressionKind::Integer(value, _) => {
+            Expression { kind: ExpressionKind::Floating(*value, false), ..operand.clone() }
+        }
+        _ => operand.clone(),
+    };
+    let others = others.iter().map(|(operator, line, operand)| (*operator, *line, float(operand)));
+    let kind = ExpressionKind::Chain(Box::new(float(first)), others.collect());
+    Some(Expression { kind, ..own.clone() })
+}
