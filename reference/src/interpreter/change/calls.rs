@@ -50,6 +50,22 @@ pub(super) fn is_bound_by_zero(expression: &Expression) -> bool {
     matches!(&**name, "max" | "clamp") && arguments[1..].iter().any(is_zero)
 }
 
+/// Arguments with two of the first `most` exchanged that have the same type.
+pub(super) fn exchanged(
+    arguments: &[Expression],
+    most: usize,
+    kind: &mut dyn FnMut(&Expression) -> Option<Type>,
+) -> Vec<Vec<Expression>> {
+    let kinds: Vec<Option<Type>> = arguments.iter().take(most).map(kind).collect();
+    let pairs = (1..kinds.len()).flat_map(|second| (0..second).map(move |first| (first, second)));
+    let swapped = |(first, second)| {
+        let mut arguments = arguments.to_vec();
+        arguments.swap(first, second);
+        arguments
+    };
+    pairs.filter(|(first, second)| kinds[*first] == kinds[*second]).map(swapped).collect()
+}
+
 struct Call<'a> {
     name: &'a Name,
     arguments: &'a [Expression],
@@ -89,16 +105,8 @@ impl Call<'_> {
         if SYMMETRIC.contains(&&**self.name) {
             return;
         }
-        for second in 1..self.arguments.len() {
-            for first in 0..second {
-                let kinds = [first, second].map(|at| (scope.kind)(&self.arguments[at]));
-                if kinds[0] == kinds[1] {
-                    let mut arguments = self.arguments.to_vec();
-                    arguments.swap(first, second);
-                    found.push(Local::new(Operator::Exchanged, self.call(self.name, arguments)));
-                }
-            }
-        }
+        let all = exchanged(self.arguments, self.arguments.len(), scope.kind);
+        found.extend(all.into_iter().map(|other| Local::new(Operator::Exchanged, self.call(self.name, other))));
     }
 
     fn another(&self, scope: &mut NameScope<'_>, found: &mut Vec<Local>) {

@@ -1,6 +1,6 @@
 //! The slips of a program that is no list of definitions: each as a program of its own.
 
-use super::tree::{self, TreeWalk, TypedNames, walk};
+use super::tree::{self, MetAs, TreeWalk, TypedNames, walk};
 use super::{Change, NameScope, Operator, changes, written};
 use crate::interpreter::syntax::{Binary, Expression, ExpressionKind, Item, Name, Statement, StatementKind};
 use crate::interpreter::types::{Scalar, Type};
@@ -119,13 +119,6 @@ fn found(items: &[Item], is_part: &dyn Fn(&str) -> bool) -> Vec<PlacedSlip> {
         &mut TreeWalk {
             is_part,
             declares: false,
-            bound: &mut |own, names| {
-                let changes = changes_of(own, names).into_iter();
-                // Any other slip may be a loop without an end.
-                let changes = changes.filter(|change| change.operator == Operator::OtherNumber);
-                bounds.extend(changes.map(|change| PlacedSlip::Bound(bound, change)));
-                bound += 1;
-            },
             statement: &mut |own, _| {
                 if let Some(name) = left_out(own) {
                     of_statements.push(PlacedSlip::Statement(statement, name, part_of(own)));
@@ -142,8 +135,15 @@ fn found(items: &[Item], is_part: &dyn Fn(&str) -> bool) -> Vec<PlacedSlip> {
                 }
                 statement += 1;
             },
-            expression: &mut |own, name, names| {
+            expression: &mut |own, met, names| {
                 let changes = changes_of(own, names).into_iter();
+                let MetAs::Value(name) = met else {
+                    // Any other slip may be a loop without an end.
+                    let changes = changes.filter(|change| change.operator == Operator::OtherNumber);
+                    bounds.extend(changes.map(|change| PlacedSlip::Bound(bound, change)));
+                    bound += 1;
+                    return;
+                };
                 slips.extend(changes.map(|change| {
                     let [before, after] =
                         [&*own, &change.expression].map(|root| tree::ExpressionPlace::of(root, &change.path).own);
@@ -205,14 +205,6 @@ fn with(items: &[Item], slip: &PlacedSlip, is_part: &dyn Fn(&str) -> bool) -> Ve
         &mut TreeWalk {
             is_part,
             declares: false,
-            bound: &mut |own, _| {
-                if let PlacedSlip::Bound(at, change) = slip
-                    && *at == bound
-                {
-                    *own = change.expression.clone();
-                }
-                bound += 1;
-            },
             statement: &mut |own, _| {
                 match slip {
                     PlacedSlip::Statement(at, ..) if *at == statement => own.kind = StatementKind::Empty,
@@ -225,13 +217,21 @@ fn with(items: &[Item], slip: &PlacedSlip, is_part: &dyn Fn(&str) -> bool) -> Ve
                 }
                 statement += 1;
             },
-            expression: &mut |own, _, _| {
-                if let PlacedSlip::Expression(at, _, change, _) = slip
-                    && *at == expression
-                {
-                    *own = change.expression.clone();
+            expression: &mut |own, met, _| {
+                let number = match met {
+                    MetAs::Value(_) => &mut expression,
+                    MetAs::Bound => &mut bound,
+                };
+                match (slip, met) {
+                    (PlacedSlip::Expression(at, _, change, _), MetAs::Value(_))
+                    | (PlacedSlip::Bound(at, change), MetAs::Bound)
+                        if at == number =>
+                    {
+                        *own = change.expression.clone();
+                    }
+                    _ => {}
                 }
-                expression += 1;
+                *number += 1;
             },
         },
     );

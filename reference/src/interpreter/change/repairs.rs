@@ -11,7 +11,7 @@ mod undone;
 
 use super::inverse::of_statement;
 use super::programs::left_out;
-use super::tree::{ExpressionPlace, Path, TreeWalk, TypedNames, paths, walk, with};
+use super::tree::{ExpressionPlace, MetAs, Path, TreeWalk, paths, walk, with};
 use super::{Operator, written};
 use crate::interpreter::syntax::{Expression, ExpressionKind, Item, Name, Statement, StatementKind};
 use crate::interpreter::{Program, Refusal, Stage, compile, parse, text};
@@ -19,7 +19,7 @@ use copies::{copied, together};
 use expressions::of_expression;
 pub use ingredients::Ingredients;
 use size::{size, tokens};
-use std::cell::{Cell, RefCell};
+use std::cell::Cell;
 use std::collections::HashSet;
 
 /// A program that is to be repaired.
@@ -67,6 +67,19 @@ impl ProgramRepair {
     /// The line of what was changed, in a program that was made to be traced.
     pub const MARK: u32 = u32::MAX;
 
+    /// A slip that is undone.
+    fn slip(mistake: Operator, line: u32, texts: [String; 2], place: Where) -> Self {
+        Self { mistake, line, is_bound_by_zero: false, added: None, is_slip: true, is_of_use: false, texts, place }
+    }
+
+    /// The places that are changed; none of a statement.
+    fn places(&self) -> &[(usize, Path, Expression)] {
+        match &self.place {
+            Where::Expressions(places) => places,
+            Where::Statement(_) => &[],
+        }
+    }
+
     /// How many words and signs it takes away and puts there, and whether it puts any there.
     fn size(&self) -> (usize, bool) {
         match self.place {
@@ -75,8 +88,8 @@ impl ProgramRepair {
         }
     }
 
-    /// Whether it is a slip wherever it stands: something is exchanged, or has another sign, or is compared the other way.
-    fn is_smallest(&self) -> bool {
+    /// Whether it is a slip wherever it stands, by its size: something is exchanged, or has another sign, or is compared the other way.
+    fn is_smallest(&self, (size, _): (usize, bool)) -> bool {
         let is_one_of =
             |signs: &str| self.texts.iter().all(|text| tokens(text).iter().any(|token| signs.contains(token)));
         let most = match self.mistake {
@@ -85,7 +98,7 @@ impl ProgramRepair {
             Operator::Exchanged if self.texts[0].contains(" * ") => return false,
             _ => 1,
         };
-        self.is_slip && self.size().0 <= most
+        self.is_slip && size <= most
     }
 
     /// Whether the line of what is wrong is known by it: not where a value only is used, or a part of a sum is missing.
@@ -116,40 +129,36 @@ impl Repairable {
     /// `near` lines; then the slips of what is written on the others; then what takes something from the right answer; then what is made
     /// of a value only where it is used. Of each the smaller ones come first.
     pub fn repairs(&self, lines: &[u32], near: usize, right: &Ingredients) -> Vec<ProgramRepair> {
-        let mut found: Vec<(u32, ProgramRepair)> = Vec::new();
-        let mut statements = Vec::new();
-        let (expression, mut statement) = (Cell::new(0), 0);
+        let (mut found, mut statements) = (Vec::new(), Vec::new());
+        let (mut expression, mut statement) = (0, 0);
         let is_sought =
             |own: &Expression| paths(own).iter().any(|path| lines.contains(&ExpressionPlace::of(own, path).own.line));
-        let branches = RefCell::new(Branches::default());
-        let found_at = RefCell::new(&mut found);
-        let mut look = |own: &Expression, names: &TypedNames, is_bound: bool| {
-            let number = expression.replace(expression.get() + 1);
-            let before = branches.borrow_mut().before.take();
-            if is_sought(own) {
-                let mut found = found_at.borrow_mut();
-                found.extend(of_expression(own, number, names, right, &self.members).into_iter().filter(
-                    |(_, repair)| {
-                        // Other bounds may have no end.
-                        !is_bound || repair.is_slip
-                    },
-                ));
-                found.extend(before.map(|before| without_else(&before, own, number)));
-            }
-        };
-        let look = RefCell::new(&mut look);
+        // The condition of the last branch that nothing else is done without, and the same for the branch whose condition comes next.
+        let (mut last, before) = (None, Cell::new(None));
         walk(
             &mut self.items.clone(),
             &mut TreeWalk {
                 is_part: &|_| true,
                 declares: true,
-                bound: &mut |own, names| look.borrow_mut()(own, names, true),
                 statement: &mut |own, _| {
-                    branches.borrow_mut().meet(own);
+                    before.set(None);
+                    if let StatementKind::If(condition, _, no) = &own.kind {
+                        before.set(last.take());
+                        last = no.is_none().then(|| condition.clone());
+                    }
                     statements.extend(without(own, statement));
                     statement += 1;
                 },
-                expression: &mut |own, _, names| look.borrow_mut()(own, names, false),
+                expression: &mut |own, met, names| {
+                    let before = before.take();
+                    if is_sought(own) {
+                        let all = of_expression(own, expression, names, right, &self.members).into_iter();
+                        // Other bounds may have no end.
+                        found.extend(all.filter(|(_, repair)| repair.is_slip || !matches!(met, MetAs::Bound)));
+                        found.extend(before.map(|before| without_else(&before, own, expression)));
+                    }
+                    expression += 1;
+                },
             },
         );
         let rank = |line: u32| lines.iter().position(|own| *own == line);
@@ -162,7 +171,7 @@ impl Repairable {
             let is_call = !repair.is_slip && repair.mistake <= Operator::CallLeftOut;
             let key = match &repair {
                 ProgramRepair { is_of_use: true, .. } => (4, size, rank),
-                _ if repair.is_smallest() => (0, (0, false), rank),
+                _ if repair.is_smallest(size) => (0, (0, false), rank),
                 _ if rank < near => (1, size, rank),
                 ProgramRepair { is_slip: true, .. } => (2, size, rank),
                 _ => (3, if is_call { (0, true) } else { size }, rank),
@@ -198,49 +207,27 @@ impl Repairable {
 
     fn items_with(&self, repair: &ProgramRepair, is_marked: bool) -> Vec<Item> {
         let mut items = self.items.clone();
-        let (expression, mut statement) = (Cell::new(0), 0);
-        let put = |own: &mut Expression| {
-            let number = expression.replace(expression.get() + 1);
-            let Where::Expressions(places) = &repair.place else { return };
-            for (_, path, changed) in places.iter().filter(|(at, ..)| *at == number) {
-                *own = with(own, path, if is_marked { marked(changed) } else { changed.clone() });
-            }
-        };
+        let (mut expression, mut statement) = (0, 0);
         walk(
             &mut items,
             &mut TreeWalk {
                 is_part: &|_| true,
                 declares: true,
-                bound: &mut |own, _| put(own),
                 statement: &mut |own, _| {
                     if matches!(repair.place, Where::Statement(at) if at == statement) {
                         own.kind = StatementKind::Empty;
                     }
                     statement += 1;
                 },
-                expression: &mut |own, _, _| put(own),
+                expression: &mut |own, _, _| {
+                    for (_, path, changed) in repair.places().iter().filter(|(at, ..)| *at == expression) {
+                        *own = with(own, path, if is_marked { marked(changed) } else { changed.clone() });
+                    }
+                    expression += 1;
+                },
             },
         );
         items
-    }
-}
-
-/// The branches that a walk meets.
-#[derive(Default)]
-struct Branches {
-    /// The condition of the last one that nothing else is done without.
-    last: Option<Expression>,
-    /// The one before that of the condition that is met next.
-    before: Option<Expression>,
-}
-
-impl Branches {
-    fn meet(&mut self, statement: &Statement) {
-        self.before = None;
-        if let StatementKind::If(condition, _, no) = &statement.kind {
-            self.before = self.last.take();
-            self.last = no.is_none().then(|| condition.clone());
-        }
     }
 }
 
@@ -249,17 +236,7 @@ fn without_else(before: &Expression, own: &Expression, number: usize) -> (u32, P
     let place = Where::Expressions(vec![(number, Path::new(), undone::with_else(before, own))]);
     let text = written(own);
     let texts = [format!("if ({text})"), format!("else if ({text})")];
-    let repair = ProgramRepair {
-        mistake: Operator::StatementLeftOut,
-        line: own.line,
-        is_bound_by_zero: false,
-        added: None,
-        is_slip: true,
-        is_of_use: false,
-        texts,
-        place,
-    };
-    (own.at, repair)
+    (own.at, ProgramRepair::slip(Operator::StatementLeftOut, own.line, texts, place))
 }
 
 /// The program without a statement.
@@ -269,16 +246,7 @@ fn without(own: &Statement, number: usize) -> Option<ProgramRepair> {
         StatementKind::Expression(expression) => written(expression),
         _ => String::new(),
     };
-    Some(ProgramRepair {
-        mistake: of_statement(own),
-        line: own.line,
-        is_bound_by_zero: false,
-        added: None,
-        is_slip: true,
-        is_of_use: false,
-        texts: [text, String::new()],
-        place: Where::Statement(number),
-    })
+    Some(ProgramRepair::slip(of_statement(own), own.line, [text, String::new()], Where::Statement(number)))
 }
 
 /// The expression on the line [`ProgramRepair::MARK`], the last operator of a chain among it.

@@ -27,6 +27,11 @@ impl<'a> ExpressionPlace<'a> {
     pub fn is_root(&self) -> bool {
         self.parent.is_none()
     }
+
+    /// Whether it is all that a variable is given, or a function gives back.
+    pub fn is_whole(&self) -> bool {
+        self.parent.is_none_or(|parent| matches!(parent.kind, ExpressionKind::Assign(..)))
+    }
 }
 
 /// All places, the outermost first.
@@ -99,10 +104,17 @@ pub struct TreeWalk<'w> {
     pub declares: bool,
     /// What is called for every statement: may replace it. The names that are known there, with the names of their types.
     pub statement: &'w mut dyn FnMut(&mut Statement, &TypedNames),
-    /// What is called for every expression that is not part of another, with the variable that it gives a value to.
-    pub expression: &'w mut dyn FnMut(&mut Expression, Option<&Name>, &TypedNames),
-    /// What is called for what a loop goes on by.
-    pub bound: &'w mut dyn FnMut(&mut Expression, &TypedNames),
+    /// What is called for every expression that is not part of another.
+    pub expression: &'w mut dyn FnMut(&mut Expression, MetAs<'_>, &TypedNames),
+}
+
+/// What an expression is where a walk meets it.
+#[derive(Clone, Copy, Debug)]
+pub enum MetAs<'n> {
+    /// A value, and the variable that is given it.
+    Value(Option<&'n Name>),
+    /// What a loop goes on by.
+    Bound,
 }
 
 /// Goes through the functions of a program, in the order of the text.
@@ -134,11 +146,13 @@ pub(super) fn last_line(statement: &Statement) -> u32 {
         is_part: &|_| true,
         declares: false,
         statement: &mut |own, _| of_statements = of_statements.max(own.line),
-        expression: &mut |own, _, _| {
+        expression: &mut |own, met, _| {
+            if matches!(met, MetAs::Bound) {
+                return;
+            }
             let lines = paths(own).iter().map(|path| ExpressionPlace::of(own, path).own.line).max();
             of_expressions = of_expressions.max(lines.unwrap_or(0));
         },
-        bound: &mut |_, _| {},
     };
     of_statement(&mut statement.clone(), &mut all, &mut Vec::new());
     of_expressions.max(of_statements)
@@ -159,7 +173,7 @@ fn of_statement(statement: &mut Statement, walk: &mut TreeWalk<'_>, names: &mut 
     match &mut statement.kind {
         StatementKind::Expression(expression) => {
             let name = assigned(expression);
-            (walk.expression)(expression, name.as_ref(), names);
+            (walk.expression)(expression, MetAs::Value(name.as_ref()), names);
         }
         StatementKind::Declaration(declaration) => {
             of_declaration(declaration, walk, true, names);
@@ -169,7 +183,7 @@ fn of_statement(statement: &mut Statement, walk: &mut TreeWalk<'_>, names: &mut 
             all.iter_mut().for_each(|statement| of_statement(statement, walk, names));
         }
         StatementKind::If(condition, yes, no) => {
-            (walk.expression)(condition, None, names);
+            (walk.expression)(condition, MetAs::Value(None), names);
             of_statement(yes, walk, names);
             if let Some(no) = no {
                 of_statement(no, walk, names);
@@ -180,15 +194,15 @@ fn of_statement(statement: &mut Statement, walk: &mut TreeWalk<'_>, names: &mut 
                 of_statement(first, walk, names);
             }
             if let Some(LoopCondition::Expression(condition)) = condition {
-                (walk.bound)(condition, names);
+                (walk.expression)(condition, MetAs::Bound, names);
             }
             of_statement(body, walk, names);
         }
         StatementKind::DoWhile(body, condition) => {
             of_statement(body, walk, names);
-            (walk.bound)(condition, names);
+            (walk.expression)(condition, MetAs::Bound, names);
         }
-        StatementKind::Return(Some(value)) => (walk.expression)(value, None, names),
+        StatementKind::Return(Some(value)) => (walk.expression)(value, MetAs::Value(None), names),
         _ => {}
     }
     names.truncate(known);
@@ -198,7 +212,7 @@ fn of_statement(statement: &mut Statement, walk: &mut TreeWalk<'_>, names: &mut 
 fn of_declaration(declaration: &mut Declaration, walk: &mut TreeWalk<'_>, gives: bool, names: &mut Vec<(Name, Name)>) {
     for variable in &mut declaration.variables {
         if let Some(value) = variable.value.as_mut().filter(|_| gives) {
-            (walk.expression)(value, Some(&variable.name), names);
+            (walk.expression)(value, MetAs::Value(Some(&variable.name)), names);
         }
         if let BaseType::Named(kind) = &declaration.kind.base
             && variable.lengths.is_empty()

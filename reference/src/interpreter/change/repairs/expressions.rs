@@ -2,7 +2,7 @@
 
 use super::super::inverse::mistake_of;
 use super::super::programs::{guess, of_name};
-use super::super::tree::{ExpressionPlace, TypedNames, operands, paths};
+use super::super::tree::{ExpressionPlace, Path, TypedNames, paths};
 use super::super::{Change, NameScope, Operator, bare, calls, changes, written};
 use super::undone;
 use super::{Ingredients, ProgramRepair, Where};
@@ -25,74 +25,46 @@ pub(super) fn of_expression(
     let mut kind = |expression: &Expression| guess(expression, theirs);
     let scope = &mut NameScope { names: &typed, constants: &HashSet::new(), kind: &mut kind, free: false };
     let slips = changes(own, scope).into_iter().filter(|change| change.operator != Operator::WholeNumbers);
-    let mut found: Vec<(u32, ProgramRepair)> = slips.map(|change| of_slip(own, number, change)).collect();
+    let mut found: Vec<(u32, ProgramRepair)> = slips.map(|change| of_slip(own, number, &change)).collect();
     for path in paths(own) {
         let place = ExpressionPlace::of(own, &path);
-        let repair = |mistake, expression: Expression| ProgramRepair {
-            mistake,
-            line: line_of(place.own, &expression),
-            is_bound_by_zero: false,
-            added: None,
-            is_slip: true,
-            is_of_use: is_use(place.own) && !is_substitute(mistake),
-            texts: [written(place.own), written(&expression)],
-            place: Where::Expressions(vec![(number, path.clone(), expression)]),
-        };
+        let add = |mistake, expression| repair(number, &path, place.own, expression, mistake);
         let undone = undone::changes(&place, theirs, members).into_iter();
-        found.extend(undone.map(|(mistake, expression)| (place.own.at, repair(mistake, expression))));
+        found.extend(undone.map(|(mistake, expression)| (place.own.at, add(mistake, expression))));
         let Some(kind) = guess(place.own, theirs) else { continue };
-        let is_whole = place.parent.is_none_or(is_statement);
-        for added in right.changes(&place, &kind, is_whole, theirs) {
-            let repair = ProgramRepair {
-                line: place.own.line,
-                is_bound_by_zero: added.is_bound_by_zero,
-                added: added.name,
-                is_slip: false,
-                is_of_use: is_use(place.own),
-                ..repair(added.mistake, added.expression)
-            };
-            found.push((place.own.at, repair));
-        }
+        let added = right.changes(&place, &kind, theirs).into_iter().map(|added| ProgramRepair {
+            line: place.own.line,
+            is_bound_by_zero: added.is_bound_by_zero,
+            added: added.name,
+            is_slip: false,
+            is_of_use: is_use(place.own),
+            ..add(added.mistake, added.expression)
+        });
+        found.extend(added.map(|repair| (place.own.at, repair)));
     }
     found.sort_by_key(|(_, repair)| repair.mistake);
     let mut known = HashSet::new();
-    found.retain(|(_, repair)| match &repair.place {
-        Where::Expressions(places) => known.insert((places[0].1.clone(), repair.texts[1].clone())),
-        Where::Statement(_) => true,
+    found.retain(|(_, repair)| {
+        let path = repair.places().first().map(|(_, path, _)| path.clone());
+        known.insert((path, repair.texts[1].clone()))
     });
     found
 }
 
-/// Whether an expression is a whole statement, so that its operand is a whole value.
-fn is_statement(parent: &Expression) -> bool {
-    matches!(parent.kind, ExpressionKind::Assign(..))
+fn of_slip(own: &Expression, number: usize, change: &Change) -> (u32, ProgramRepair) {
+    let [before, after] = [own, &change.expression].map(|root| ExpressionPlace::of(root, &change.path).own);
+    let is_bound_by_zero = change.is_bound_by_zero || calls::is_bound_by_zero(after);
+    let repair = repair(number, &change.path, before, after.clone(), mistake_of(own, change));
+    (before.at, ProgramRepair { is_bound_by_zero, ..repair })
 }
 
-fn of_slip(own: &Expression, number: usize, change: Change) -> (u32, ProgramRepair) {
-    let mistake = mistake_of(own, &change);
-    let at = |root: &Expression| {
-        let mut place = root;
-        for step in &change.path {
-            match operands(place).get(*step) {
-                Some(next) => place = next,
-                None => break,
-            }
-        }
-        place.clone()
-    };
-    let (before, after) = (at(own), at(&change.expression));
-    let is_bound_by_zero = change.is_bound_by_zero || calls::is_bound_by_zero(&after);
-    let repair = ProgramRepair {
-        mistake,
-        line: line_of(&before, &after),
-        is_bound_by_zero,
-        added: None,
-        is_slip: true,
-        is_of_use: is_use(&before) && !is_substitute(mistake),
-        texts: [written(&before), written(&after)],
-        place: Where::Expressions(vec![(number, change.path, after)]),
-    };
-    (before.at, repair)
+/// The slip that one expression of another undoes, at a place of the expression with this number.
+fn repair(number: usize, path: &Path, before: &Expression, after: Expression, mistake: Operator) -> ProgramRepair {
+    let texts = [written(before), written(&after)];
+    let is_of_use = is_use(before) && !is_substitute(mistake);
+    let line = line_of(before, &after);
+    let place = Where::Expressions(vec![(number, path.clone(), after)]);
+    ProgramRepair { is_of_use, ..ProgramRepair::slip(mistake, line, texts, place) }
 }
 
 /// Whether an expression only passes on what is made elsewhere in the text.

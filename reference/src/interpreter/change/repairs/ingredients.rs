@@ -1,7 +1,7 @@
 //! What a right answer is made of, so that it can stand in another program.
 
 use super::super::programs::{guess, of_name};
-use super::super::tree::{ExpressionPlace, TreeWalk, operands, paths, walk, with};
+use super::super::tree::{ExpressionPlace, MetAs, TreeWalk, operands, paths, walk, with};
 use super::super::{Operator, bare, calls, floats, is_literal, written};
 use crate::interpreter::syntax::{BaseType, Binary, Expression, ExpressionKind, Item, Name, StatementKind};
 use crate::interpreter::types::Type;
@@ -108,9 +108,11 @@ impl Ingredients {
             &mut TreeWalk {
                 is_part: &|_| true,
                 declares: false,
-                bound: &mut |_, _| {},
                 statement: &mut |_, _| {},
-                expression: &mut |own, _, names| {
+                expression: &mut |own, met, names| {
+                    if matches!(met, MetAs::Bound) {
+                        return;
+                    }
                     let typed = names.iter().rev();
                     let typed: Vec<(Expression, Type)> =
                         typed.filter_map(|(name, kind)| Some((of_name(name, own.line), Type::named(kind)?))).collect();
@@ -152,15 +154,14 @@ impl Ingredients {
         }
     }
 
-    /// The changes at a place with what a right answer is made of. `is_whole`: it is all that a variable is given.
+    /// The changes at a place with what a right answer is made of.
     pub(super) fn changes(
         &self,
         place: &ExpressionPlace<'_>,
         kind: &Type,
-        is_whole: bool,
         theirs: &[(Expression, Type)],
     ) -> Vec<Added> {
-        let own = place.own;
+        let (own, is_whole) = (place.own, place.is_whole());
         let mut found = Vec::new();
         let plain = |mistake, expression| Added { mistake, expression, name: None, is_bound_by_zero: false };
         if let ExpressionKind::Floating(value, _) = own.kind {

@@ -1,5 +1,6 @@
 //! Slips that are undone in a text, and that nobody makes of a right answer: there they would be another slip, or none.
 
+use super::super::calls::exchanged;
 use super::super::programs::guess;
 use super::super::tree::{ExpressionPlace, operands};
 use super::super::{Operator, bare};
@@ -38,6 +39,11 @@ pub(super) fn changes(
     let own = place.own;
     let kind = guess(own, names);
     let mut found = Vec::new();
+    let exchange = |arguments: &[Expression], kind: &dyn Fn(Vec<Expression>) -> ExpressionKind| {
+        let all = exchanged(arguments, MOST_ARGUMENTS, &mut |one| guess(one, names)).into_iter();
+        let other = |other| (Operator::Exchanged, Expression { kind: kind(other), ..own.clone() });
+        all.map(other).collect::<Vec<_>>()
+    };
     match &own.kind {
         ExpressionKind::Assign(None, to, from) => {
             for (mistake, operator) in
@@ -57,15 +63,10 @@ pub(super) fn changes(
             found.extend(numbers.map(|(name, _)| (Operator::OtherValue, name.clone())));
         }
         ExpressionKind::Call(name, arguments) if Type::named(name).is_some() => {
-            let with = |arguments| Expression { kind: ExpressionKind::Call(name.clone(), arguments), ..own.clone() };
-            found.extend(exchanged(arguments, names).into_iter().map(with).map(|own| (Operator::Exchanged, own)));
+            found.extend(exchange(arguments, &|other| ExpressionKind::Call(Name::clone(name), other)));
         }
         ExpressionKind::ArrayConstructor(kind, arguments) => {
-            let with = |arguments| Expression {
-                kind: ExpressionKind::ArrayConstructor(kind.clone(), arguments),
-                ..own.clone()
-            };
-            found.extend(exchanged(arguments, names).into_iter().map(with).map(|own| (Operator::Exchanged, own)));
+            found.extend(exchange(arguments, &|other| ExpressionKind::ArrayConstructor(kind.clone(), other)));
         }
         // Of a vector they are components.
         ExpressionKind::Member(of, name) if !matches!(guess(of, names), Some(Type::Vector(..))) => {
@@ -85,10 +86,7 @@ pub(super) fn changes(
         let turned = [inverse(), call("transpose", own.clone()), call("transpose", inverse())];
         found.extend(turned.map(|turned| (Operator::CallLeftOut, turned)));
     }
-    // What a function gives back, or a variable is given.
-    let is_whole =
-        place.is_root() || place.parent.is_some_and(|parent| matches!(parent.kind, ExpressionKind::Assign(..)));
-    if is_whole && !matches!(own.kind, ExpressionKind::Assign(..)) && kind == Some(Type::FLOAT) {
+    if place.is_whole() && !matches!(own.kind, ExpressionKind::Assign(..)) && kind == Some(Type::FLOAT) {
         let one = Expression::made(own.line, ExpressionKind::Floating(1.0, false));
         let of = Expression::made(own.line, ExpressionKind::Comma(vec![own.clone()]));
         let kind = ExpressionKind::Chain(Box::new(one), vec![(Binary::Divide, own.line, of)]);
@@ -107,19 +105,6 @@ pub(super) fn with_else(before: &Expression, own: &Expression) -> Expression {
 
 fn is_index(parent: &Expression) -> bool {
     matches!(parent.kind, ExpressionKind::Index(..))
-}
-
-/// The arguments with two of the same type exchanged.
-fn exchanged(arguments: &[Expression], names: &[(Expression, Type)]) -> Vec<Vec<Expression>> {
-    let kinds: Vec<Option<Type>> = arguments.iter().take(MOST_ARGUMENTS).map(|one| guess(one, names)).collect();
-    let pairs = (0..kinds.len()).flat_map(|second| (0..second).map(move |first| (first, second)));
-    let pairs = pairs.filter(|(first, second)| kinds[*first] == kinds[*second]);
-    let swapped = |(first, second)| {
-        let mut arguments = arguments.to_vec();
-        arguments.swap(first, second);
-        arguments
-    };
-    pairs.map(swapped).collect()
 }
 
 /// A quotient of whole numbers as one of floats.
