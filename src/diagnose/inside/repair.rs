@@ -1,7 +1,7 @@
 //! The smallest change of the student's own text by which all becomes right.
 //!
-//! It is looked for where the mistake was found to stand, then wherever else a value is not right yet: the slips of what is
-//! written there, and what the right answer is made of. What makes every judging probe right, and those that nobody knows
+//! It is looked for where the mistake was found to stand, then wherever else the student wrote something: the slips of what is
+//! written there, and what the right answer is made of. The smallest come first, wherever they stand. What makes every judging probe right, and those that nobody knows
 //! beforehand, names the mistake exactly. Where no change does, one that makes more right and nothing wrong is taken, and the
 //! next one is looked for in the text with it.
 
@@ -47,6 +47,26 @@ struct RepairAttempt {
     seen: Seen,
 }
 
+impl RepairAttempt {
+    fn text(&self, stage: Stage) -> Option<&Repairable> {
+        self.texts.iter().find(|(own, _)| *own == stage).map(|(_, text)| text)
+    }
+
+    /// The changes of its texts, in the order in which they are tried.
+    fn changes<'t>(&'t self, scope: RepairScope<'t>) -> impl Iterator<Item = RepairStep> {
+        scope.lines.iter().flat_map(move |StageLines { stage, lines, near }| {
+            let all = self.text(*stage).map(|text| text.repairs(lines, *near, scope.right));
+            let all = all.into_iter().flatten().filter(move |repair| !scope.is_all || repair.is_of_its_line());
+            all.map(|repair| (*stage, repair))
+        })
+    }
+
+    /// The program with one more change; none where that is no program.
+    fn with(&self, (stage, repair): &RepairStep) -> Option<TracedProgram> {
+        self.program.with(*stage, self.text(*stage)?.program(repair)?)
+    }
+}
+
 /// A change of the text of a stage.
 type RepairStep = (Stage, ProgramRepair);
 
@@ -57,12 +77,17 @@ enum RepairOutcome {
     Better(Vec<(RepairStep, Seen)>),
 }
 
+/// The lines of a stage to look at; in the first `near` ones something was found.
+struct StageLines {
+    stage: Stage,
+    lines: Vec<u32>,
+    near: usize,
+}
+
 /// Which changes are tried, and how many.
 #[derive(Clone, Copy)]
 struct RepairScope<'l> {
-    /// The lines to look at; in the first `near` ones something was found.
-    lines: &'l [(Stage, u32)],
-    near: usize,
+    lines: &'l [StageLines],
     right: &'l Ingredients,
     most: usize,
     /// Whether only one counts that makes all right, and is known to be on its line.
@@ -99,9 +124,8 @@ impl Search<'_, '_> {
             return None;
         }
         let attempt = self.first_attempt();
-        let (lines, near) = self.lines(findings);
-        let right = &self.ingredients();
-        match self.step(&attempt, RepairScope { lines: &lines, near, right, most: MOST_SLIPS, is_all: true }) {
+        let (lines, right) = (&self.lines(findings), &self.ingredients());
+        match self.step(&attempt, RepairScope { lines, right, most: MOST_SLIPS, is_all: true }) {
             RepairOutcome::Right(step) => Some(self.repaired(&attempt, &step)?.located),
             RepairOutcome::Better(_) => None,
         }
@@ -127,9 +151,8 @@ impl Search<'_, '_> {
         findings: &[Finding],
         goes_on: &mut dyn FnMut() -> bool,
     ) -> Option<Vec<RepairStep>> {
-        let (lines, near) = self.lines(findings);
-        let right = &self.ingredients();
-        let scope = RepairScope { lines: &lines, near, right, most: MOST_TRIED, is_all: false };
+        let (lines, right) = (&self.lines(findings), &self.ingredients());
+        let scope = RepairScope { lines, right, most: MOST_TRIED, is_all: false };
         let better = match self.step(attempt, scope) {
             RepairOutcome::Right(step) => return Some(vec![step]),
             RepairOutcome::Better(better) => better,
@@ -152,77 +175,61 @@ impl Search<'_, '_> {
         let before = self.right_channels(&attempt.seen);
         let first = &self.places[..self.places.len().min(FIRST)];
         let is_worse = |now: &[bool]| before.iter().zip(now).any(|(before, now)| *before && !now);
-        let (mut tried, mut verified) = (0, 0);
-        let mut stages: Vec<Stage> = scope.lines.iter().map(|(stage, _)| *stage).collect();
-        stages.dedup();
-        for stage in stages {
-            let Some((_, text)) = attempt.texts.iter().find(|(own, _)| *own == stage) else { continue };
-            let own: Vec<u32> = scope.lines.iter().filter(|(of, _)| *of == stage).map(|(_, line)| *line).collect();
-            let near = scope.lines[..scope.near].iter().filter(|(of, _)| *of == stage).count();
-            let all = text.repairs(&own, near, scope.right).into_iter();
-            for repair in all.filter(|repair| !scope.is_all || repair.is_of_its_line()) {
-                tried += 1;
-                if tried > scope.most {
-                    break;
+        let mut verified = 0;
+        for step in attempt.changes(scope).take(scope.most) {
+            let Some(program) = attempt.with(&step) else { continue };
+            let Some(seen) = self.shown(&program, first, FUEL_OF_FIRST) else { continue };
+            let is_no_use = match scope.is_all {
+                true => !is_right(self.wanted, &seen, first.len()),
+                false => is_worse(&self.right_channels(&seen)),
+            };
+            if is_no_use {
+                continue;
+            }
+            let Some(seen) = self.shown(&program, self.places, FUEL_OF_TRY) else { continue };
+            if is_right(self.wanted, &seen, self.count) {
+                verified += 1;
+                if verified <= MOST_VERIFIED && self.holds_everywhere(&program) {
+                    return RepairOutcome::Right(step);
                 }
-                let Some(program) = text.program(&repair).and_then(|own| attempt.program.with(stage, own)) else {
-                    continue;
-                };
-                let Some(seen) = self.shown(&program, first, FUEL_OF_FIRST) else { continue };
-                let is_no_use = match scope.is_all {
-                    true => !is_right(self.wanted, &seen, first.len()),
-                    false => is_worse(&self.right_channels(&seen)),
-                };
-                if is_no_use {
-                    continue;
-                }
-                let Some(seen) = self.shown(&program, self.places, FUEL_OF_TRY) else { continue };
-                if is_right(self.wanted, &seen, self.count) {
-                    verified += 1;
-                    if verified <= MOST_VERIFIED && self.holds_everywhere(&program) {
-                        return RepairOutcome::Right((stage, repair));
-                    }
-                    continue;
-                }
-                let now = self.right_channels(&seen);
-                let gained = before.iter().zip(&now).filter(|(before, now)| !**before && **now).count();
-                if !is_worse(&now) && gained > 0 && is_in_place(self.wanted, &seen, self.count) {
-                    better.push((gained, (stage, repair), seen));
-                }
+                continue;
+            }
+            let now = self.right_channels(&seen);
+            let gained = before.iter().zip(&now).filter(|(before, now)| !**before && **now).count();
+            if !is_worse(&now) && gained > 0 && is_in_place(self.wanted, &seen, self.count) {
+                better.push((gained, step, seen));
             }
         }
         better.sort_by_key(|(gained, ..)| std::cmp::Reverse(*gained));
         RepairOutcome::Better(better.into_iter().map(|(_, step, seen)| (step, seen)).collect())
     }
 
-    fn after(&self, attempt: &RepairAttempt, (stage, repair): &RepairStep) -> Option<RepairAttempt> {
-        let mut next = attempt.clone();
-        let (_, text) = next.texts.iter_mut().find(|(own, _)| own == stage)?;
-        let program = text.program(repair)?;
-        *text = text.with(repair);
-        next.program = attempt.program.with(*stage, program)?;
+    fn after(&self, attempt: &RepairAttempt, step: &RepairStep) -> Option<RepairAttempt> {
+        let mut next = RepairAttempt { program: attempt.with(step)?, ..attempt.clone() };
+        let (_, text) = next.texts.iter_mut().find(|(own, _)| *own == step.0)?;
+        *text = text.with(&step.1);
         Some(next)
     }
 
-    /// The lines to look at: those of what was found, then those of all that is not right yet, then the others that it is made of, then
-    /// the rest of what the student wrote. And how many of them are of what was found.
-    fn lines(&self, findings: &[Finding]) -> (Vec<(Stage, u32)>, usize) {
-        let mut lines: Vec<(Stage, u32)> = findings.iter().map(|finding| (finding.stage, finding.line)).collect();
+    /// The lines to look at, of a stage in which something was found first: those of what was found, then those of all that is not right
+    /// yet, then the others that it is made of, then the rest of what the student wrote.
+    fn lines(&self, findings: &[Finding]) -> Vec<StageLines> {
+        let found_in = |stage: Stage| findings.iter().filter(move |finding| finding.stage == stage);
         let mut stages = vec![Stage::Vertex, Stage::Fragment];
-        stages.sort_by_key(|stage| !findings.iter().any(|finding| finding.stage == *stage));
-        let mut known = std::collections::HashSet::new();
-        lines.retain(|(stage, line)| known.insert((*stage as usize, *line)));
-        lines.sort_by_key(|(stage, _)| lines_of_stage(findings, *stage));
-        let near = lines.len();
-        for stage in stages {
+        stages.sort_by_key(|stage| found_in(*stage).next().is_none());
+        let of_stage = |stage: Stage| {
+            let mut known = std::collections::HashSet::new();
+            let mut lines: Vec<u32> = found_in(stage).map(|finding| finding.line).collect();
+            lines.retain(|line| known.insert(*line));
+            let near = lines.len();
             let suspects = self.suspects(stage);
             let own = suspects.iter().filter(|one| self.is_students(stage, one));
             let (wrong, right): (Vec<_>, Vec<_>) = own.partition(|one| !one.is_right && !one.gives_right);
-            let suspected = wrong.into_iter().chain(right).map(|one| (stage, self.site(stage, one).line));
-            let all = suspected.chain(self.students_lines(stage).map(|line| (stage, line)));
-            lines.extend(all.filter(|(stage, line)| known.insert((*stage as usize, *line))));
-        }
-        (lines, near)
+            let suspected = wrong.into_iter().chain(right).map(|one| self.site(stage, one).line);
+            lines.extend(suspected.chain(self.students_lines(stage)).filter(|line| known.insert(*line)));
+            StageLines { stage, lines, near }
+        };
+        stages.into_iter().map(of_stage).collect()
     }
 
     fn shown(&self, program: &TracedProgram, places: &[Place<'_>], fuel: u64) -> Option<Seen> {
@@ -255,9 +262,4 @@ impl Search<'_, '_> {
         let (Some(judging), Some(fresh)) = (judging, fresh) else { return false };
         judging.iter().all(|is| *is) && !self.evidence.fresh.is_contradicted(|place| !fresh[place])
     }
-}
-
-/// Stages in which something was found come first.
-fn lines_of_stage(findings: &[Finding], stage: Stage) -> (bool, usize) {
-    (!findings.iter().any(|finding| finding.stage == stage), stage as usize)
 }

@@ -14,8 +14,7 @@ use reference::traced::Bench;
 impl Search<'_, '_> {
     /// What is known of a change.
     pub(super) fn repaired(&self, attempt: &RepairAttempt, (stage, repair): &RepairStep) -> Option<Repaired> {
-        let (_, text) = attempt.texts.iter().find(|(own, _)| own == stage)?;
-        let marked = attempt.program.with(*stage, text.traced(repair)?)?;
+        let marked = attempt.program.with(*stage, attempt.text(*stage)?.traced(repair)?)?;
         let (_, mut traces) = Bench::new(self.assignment, &marked, self.places, self.in_quads, FUEL_OF_TRACE)?
             .trace(&StageChanges::default())?;
         let trace = traces[*stage as usize].take()?;
