@@ -2,13 +2,15 @@
 //!
 //! The first row of texels is the lowest one, as OpenGL has it: texture coordinate (0, 0) is the lower left corner.
 
+mod colour;
 mod file;
 mod generator;
 mod noise;
 mod sky;
 
+pub use colour::Colour;
 pub use file::{BrokenPicture, read};
-pub use generator::{Colour, Generator};
+pub use generator::Generator;
 
 /// The texels of one picture, row by row.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,7 +1,8 @@
 //! Value noise: numbers on a lattice, smoothly joined. It goes on at its other edge, and is the same on every machine.
 
 use super::TexturePicture;
-use super::generator::{Colour, painted, within};
+use super::colour::Colour;
+use super::generator::{painted, within};
 use crate::Text;
 use schemars::JsonSchema;
 use serde::Deserialize;

@@ -1,7 +1,8 @@
 //! A sky as a cube map: what is seen in a direction.
 
 use super::TexturePicture;
-use super::generator::{Colour, painted, within};
+use super::colour::Colour;
+use super::generator::{painted, within};
 use crate::Text;
 use crate::text::both;
 use glam::DVec3;
