@@ -3,6 +3,7 @@
 mod advice;
 mod answers;
 mod constants;
+mod expression;
 mod features;
 mod host;
 mod interface;
@@ -10,6 +11,7 @@ mod meshes;
 mod mistakes;
 mod passes;
 mod probing;
+mod rubric;
 mod scene;
 mod solution;
 mod stages;
@@ -24,9 +26,7 @@ use crate::interpreter::Texture;
 use crate::manifest::{self, Manifest};
 use crate::mistake::Mistake;
 use crate::text::both;
-use crate::together::has_name;
 use solution::CheckedSolution;
-use std::collections::HashSet;
 use std::sync::Arc;
 use variants::Variants;
 
@@ -35,9 +35,6 @@ const OF_FEATURES: [&str; 2] = ["part-missing", "part-scaled"];
 
 /// What is said of a fragment stage that throws everything away.
 const OF_FRAGMENTS: &str = "nothing-drawn";
-
-/// Rubric lines are held as the bits of a u64.
-const MAX_LINES: usize = 64;
 
 type CheckResult<T> = Result<T, AssignmentError>;
 
@@ -65,9 +62,9 @@ pub(super) fn assignment(
     passes::pass(&m, &textures, &mut scene, &interface, &read, place_at)?;
     let constants = constants::constants(&files, std::mem::take(&mut m.constant))?;
     let texts: Vec<&str> = files.iter().map(|file| file.solution.text.as_str()).collect();
-    let lines = rubric(&mut m.rubric, &solution, &texts)?;
+    let lines = rubric::rubric(&mut m.rubric, &solution, &texts)?;
     for constant in &constants {
-        known_line(&lines, &constant.line, &format!("constant `{}`", constant.name))?;
+        rubric::known_line(&lines, &constant.line, &format!("constant `{}`", constant.name))?;
     }
     let typeset = m.equation.take().map(|entry| typeset::typeset(entry, &lines, place_at)).transpose()?;
     let variants = Variants { files: &files, stages: &stages, read: &read };
@@ -215,55 +212,6 @@ fn gradual(m: &Manifest, mistakes: &[Mistake], place_at: &dyn Fn(usize) -> Strin
     Ok(Some(Gradual { abrupt: known(&entry.abrupt)?, uneven: known(&entry.uneven)? }))
 }
 
-fn rubric(
-    lines: &mut [manifest::RubricLine],
-    solution: &CheckedSolution<'_>,
-    texts: &[&str],
-) -> CheckResult<HashSet<String>> {
-    if lines.len() > MAX_LINES {
-        return Err(error("rubric", both("has more than 64 lines", "64 行を超えています")));
-    }
-    let mut ids = HashSet::new();
-    for line in lines {
-        let place = format!("rubric `{}`", line.id);
-        let judged = match line.judges.as_str() {
-            "" => solution.colour()?,
-            judges => solution.definition(judges, &|| place.clone())?,
-        };
-        line.judges = solution.name(judged).to_owned();
-        for number in &line.numbers {
-            solution.definition(number, &|| format!("{place}, `numbers`"))?;
-        }
-        if let Some(name) = line.variables.iter().find(|name| !texts.iter().any(|text| has_name(text, name))) {
-            return Err(error(
-                place,
-                both(
-                    format!(
-                        "is about `{name}`, which the solution does not have: write the name of one of its variables"
-                    ),
-                    format!("`{name}` は解答例にありません。解答例の変数名を書いてください"),
-                ),
-            ));
-        }
-        if !line.points.is_finite() || line.points <= 0.0 {
-            return Err(error(
-                place,
-                both(
-                    "is worth nothing: write `points` above 0",
-                    "点がありません。`points` を 0 より大きくしてください",
-                ),
-            ));
-        }
-        if !ids.insert(line.id.clone()) {
-            return Err(error(
-                place,
-                both("stands twice: give one another name", "2 回書かれています。一方の名前を変えてください"),
-            ));
-        }
-    }
-    Ok(ids)
-}
-
 /// Longest id of an assignment, in characters.
 const LONGEST_ID: usize = 64;
 
@@ -292,18 +240,4 @@ fn check_id(id: &str, folder: &Folder) -> CheckResult<()> {
 /// Names as a sentence has them.
 fn listed<'a>(names: impl Iterator<Item = &'a str>) -> String {
     names.map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
-}
-
-fn known_line(lines: &HashSet<String>, line: &str, place: &str) -> CheckResult<()> {
-    if lines.contains(line) {
-        Ok(())
-    } else {
-        Err(error(
-            place,
-            both(
-                format!("there is no rubric line `{line}`: correct the name, or add it"),
-                format!("採点の行 `{line}` はありません。名前を直すか、追加してください"),
-            ),
-        ))
-    }
 }

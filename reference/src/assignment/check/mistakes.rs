@@ -1,8 +1,9 @@
 //! The known mistakes of an assignment.
 
+use super::CheckResult;
+use super::rubric::known_line;
 use super::solution::CheckedSolution;
 use super::variants::Variants;
-use super::{CheckResult, known_line};
 use crate::Text;
 use crate::assignment::{Constant, error};
 use crate::interpreter::Type;

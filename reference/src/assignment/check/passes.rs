@@ -1,6 +1,6 @@
 //! The pass of an assignment, and the texture that it draws.
 
-use super::scene::expression;
+use super::expression::expression;
 use super::stages::compiled;
 use super::{CheckResult, listed, textures};
 use crate::assignment::{AssignmentError, Interface, error};

@@ -1,6 +1,7 @@
 //! The scenes of an assignment.
 
 use super::CheckResult;
+use super::expression::expression;
 use super::meshes::Meshes;
 use crate::Folder;
 use crate::Text;
@@ -33,9 +34,6 @@ pub(super) fn scene(
     let meshes = Meshes::new(folder, place_at);
     let [first, ..] = &scenes.0[..] else {
         return Err(error("scene", both("there is none: write [scene]", "ありません。[scene] を書いてください")));
-    };
-    let missing = |key: &str| {
-        error("scene", both(format!("`{key}` is missing: write it"), format!("`{key}` がありません。書いてください")))
     };
     let [width, height] = first.window.ok_or_else(|| missing("window"))?;
     if !(1..=LONGEST_SIDE).contains(&width) || !(1..=LONGEST_SIDE).contains(&height) {
@@ -110,6 +108,10 @@ pub(super) fn scene(
     Ok(scene)
 }
 
+fn missing(key: &str) -> AssignmentError {
+    error("scene", both(format!("`{key}` is missing: write it"), format!("`{key}` がありません。書いてください")))
+}
+
 /// The vertices of all frames.
 fn drawn(scene: &Scene) -> usize {
     let of_frame = |view: &View| -> usize {
@@ -126,25 +128,14 @@ struct SceneReader<'a> {
     place_at: &'a dyn Fn(usize) -> String,
 }
 
-impl SceneReader<'_> {
-    fn get<T>(&self, key: &str, of: impl Fn(&manifest::Scene) -> Option<T>) -> CheckResult<T> {
-        of(self.own).or_else(|| of(self.first)).ok_or_else(|| {
-            error(
-                "scene",
-                both(format!("`{key}` is missing: write it"), format!("`{key}` がありません。書いてください")),
-            )
-        })
+impl<'a> SceneReader<'a> {
+    fn get<T>(&self, key: &str, of: impl Fn(&'a manifest::Scene) -> Option<T>) -> CheckResult<T> {
+        of(self.own).or_else(|| of(self.first)).ok_or_else(|| missing(key))
     }
 
     fn view(&self) -> CheckResult<View> {
-        let point = |key, of: fn(&manifest::Scene) -> Option<&manifest::Point>| -> CheckResult<Point> {
-            let point = of(self.own).or_else(|| of(self.first)).ok_or_else(|| {
-                error(
-                    "scene",
-                    both(format!("`{key}` is missing: write it"), format!("`{key}` がありません。書いてください")),
-                )
-            })?;
-            match point {
+        let point = |key, of: fn(&'a manifest::Scene) -> Option<&'a manifest::Point>| -> CheckResult<Point> {
+            match self.get(key, of)? {
                 manifest::Point::Numbers(point) => Ok(Point::Fixed(DVec3::from_array(*point))),
                 manifest::Point::Expression(text) => {
                     let expression = FeedExpression::compile(text, &Type::vector(3));
@@ -289,28 +280,4 @@ fn times(poses: &Poses) -> Vec<f64> {
         }
         Poses::Times(times) => times.clone(),
     }
-}
-
-/// An expression of the manifest.
-pub(super) fn expression(
-    text: &Spanned<String>,
-    kind: &Type,
-    place: &str,
-    place_at: &dyn Fn(usize) -> String,
-) -> CheckResult<FeedExpression> {
-    let wrong = |what: &Text| -> AssignmentError {
-        let line = place_at(text.span().start);
-        let message = both(
-            format!(
-                "{}: write an expression of type {kind} with `t`, `i`, `scene`, `resolution`, `turn` and `pi`",
-                what.en
-            ),
-            format!(
-                "{}。`t`、`i`、`scene`、`resolution`、`turn`、`pi` を使った {kind} 型の式を書いてください",
-                what.ja
-            ),
-        );
-        error(format!("{line}, {place}"), message)
-    };
-    FeedExpression::compile(text.get_ref(), kind).map_err(|refusal| wrong(refusal.what()))
 }

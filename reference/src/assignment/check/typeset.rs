@@ -1,6 +1,7 @@
 //! The equation as the lecture writes it.
 
-use super::{CheckResult, known_line};
+use super::CheckResult;
+use super::rubric::known_line;
 use crate::Text;
 use crate::assignment::error;
 use crate::manifest;

@@ -2,7 +2,7 @@
 
 use super::{InterfaceReader, declared_as, values};
 use crate::Text;
-use crate::assignment::check::scene::expression;
+use crate::assignment::check::expression::expression;
 use crate::assignment::check::stages::Compiled;
 use crate::assignment::check::{CheckResult, solution};
 use crate::assignment::{Uniform, error};
