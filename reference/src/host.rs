@@ -6,13 +6,15 @@
 mod expression;
 mod found;
 mod meaning;
+mod reader;
 mod token;
 
 use crate::probes::ProbeSet;
 use crate::text::both;
 use crate::{Assignment, Text};
-use expression::{HostExpression, Reader};
+use expression::HostExpression;
 use found::{FoundArray, NumberTokens};
+use reader::Reader;
 use std::collections::{BTreeMap, BTreeSet};
 use token::{HostToken, tokens};
 

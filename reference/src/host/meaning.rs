@@ -1,8 +1,9 @@
 //! What names in a program stand for: what it has beside, and what it declares with a value.
 
 use super::UnreadableProgram;
-use super::expression::{DEEPEST, HostExpression, HostResult, Reader};
+use super::expression::HostExpression;
 use super::found::closing;
+use super::reader::{DEEPEST, HostResult, Reader};
 use super::token::HostTokenKind;
 use crate::text::both;
 
