@@ -1,8 +1,8 @@
 //! Control flow: which lanes run, and for how long.
 
-use super::kernel::Precision;
 use super::mask::Mask;
 use super::memory::{CauseNumber, Memory, UndefinedCause};
+use super::rounding::Precision;
 use super::undefined::Undefined;
 use super::{NotedLookup, Stopped};
 use crate::interpreter::code::{Code, Node, Slot};

@@ -3,8 +3,9 @@
 //! A cause is kept for each value and not for each lane, because most programs that leave something undefined never use
 //! it. That costs little: a slot that is defined in all lanes, as nearly all are, has no column of causes.
 
-use super::kernel::{self, Precision};
+use super::kernel;
 use super::mask::Mask;
+use super::rounding::{Precision, is_subnormal};
 use super::undefined::{self, Undefined};
 use crate::interpreter::code::{CodeConstant, Instruction, Operation, Slot};
 
@@ -37,7 +38,7 @@ impl Memory {
             let value = match constant {
                 Some(constant) if constant.is_float && precision != Precision::Exact => {
                     let value = f64::from(constant.value as f32);
-                    let is_zero = matches!(precision, Precision::Noisy(_)) && kernel::is_subnormal(value);
+                    let is_zero = matches!(precision, Precision::Noisy(_)) && is_subnormal(value);
                     if is_zero { 0.0 } else { value }
                 }
                 Some(constant) => constant.value,
