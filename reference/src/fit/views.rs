@@ -5,13 +5,13 @@
 //! everywhere adds the same everywhere. One way for each of the others makes a view. What is wrong in another term spoils
 //! some views of a term, hardly ever all of them: so a term that is right in one view is right.
 
+mod term;
+
 use crate::Assignment;
 use crate::assignment::RubricLine;
 use crate::probes::{ProbeSet, Region};
 use glam::DVec3;
-
-/// A right term below this does not show: far under half a step of 8 bits, also when its colour is wrong.
-const FAINT: f64 = 1e-6;
+use term::{FAINT, TermValues};
 
 /// Sums of a few numbers of magnitude 1 in f64 are this exact.
 const ROUNDING: f64 = 1e-12;
@@ -30,19 +30,6 @@ const ENOUGH_OF_A_CONSTANT: usize = 8;
 const FRACTION_ALONE: f64 = 0.1;
 /// The same where it shows together with a term that varies, which might make up for it by chance.
 const FRACTION_BESIDE: f64 = 0.3;
-
-/// A term's right values at all probes.
-pub(super) struct TermValues<'a> {
-    /// Its line's place in the rubric.
-    place: usize,
-    pub line: &'a RubricLine,
-    values: Vec<DVec3>,
-    /// The unit vector of its colour.
-    direction: DVec3,
-    /// Its greatest length.
-    amplitude: f64,
-    is_constant: bool,
-}
 
 /// How another term is kept out of sight.
 #[derive(Clone, Copy, PartialEq)]
@@ -262,22 +249,6 @@ impl<'a> Views<'a> {
             Way::Absent => value == DVec3::ZERO,
             Way::Faint => value.abs().max_element() < FAINT && !self.shows_clamps(place),
             Way::Projected | Way::Constant | Way::Right | Way::Beside => true,
-        }
-    }
-}
-
-impl<'a> TermValues<'a> {
-    fn new(place: usize, line: &'a RubricLine, values: Vec<DVec3>) -> Self {
-        let strongest = values.iter().copied().max_by(|a, b| a.length_squared().total_cmp(&b.length_squared()));
-        let strongest = strongest.unwrap_or(DVec3::ZERO);
-        let is_constant = values.iter().all(|value| (*value - strongest).abs().max_element() < FAINT);
-        Self {
-            place,
-            line,
-            values,
-            direction: strongest.normalize_or_zero(),
-            amplitude: strongest.length(),
-            is_constant,
         }
     }
 }
