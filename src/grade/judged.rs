@@ -1,11 +1,11 @@
 //! The report on a hand-in that was drawn: by the solution, or by the accepted reading of the task that it follows.
 
-use super::{Grader, Sample, own_values};
+use super::{Grader, own_values};
 use crate::compare::{self, COLOUR_TOLERANCE, ExpectedFrame};
 use crate::diagnose::{self, Diagnosis, Evidence, Fresh, Hints};
 use crate::diagnostic::Diagnostic;
 use crate::language::Text;
-use crate::render::Rendering;
+use crate::render::{Rendering, Sample};
 use crate::report::{AdviceLine, FrameResult, OwnValues, Report, Verdict};
 use crate::source::Source;
 use crate::translate;
