@@ -26,6 +26,7 @@ mod strict;
 mod tests;
 mod text;
 mod undefined;
+mod uniforms;
 mod verdict;
 
 pub use crate::ffi::glslang::Stage;
@@ -33,12 +34,13 @@ pub use entry::{CAPTURE_GROUP, CAPTURE_HEADER, CAPTURE_SLOT, StageVariable};
 pub use fuel::{LoopFuel, MAX_TURNS};
 pub(crate) use interface::place;
 pub use interface::{LinkedInterface, Variable};
-pub use module::{Shader, UniformBlock, UniformMember, unsupported};
+pub use module::{Shader, unsupported};
 pub use program::{HomeworkProgram, Linked, ProgramRefusal};
 pub use spirv::{
     CommonTexture, DESCRIPTION, InputInterpolation, InterfaceQualifiers, LineTable, TEXTURES, descriptions,
 };
 pub use undefined::NO_LINE;
+pub use uniforms::{UniformBlock, UniformMember};
 
 use crate::diagnostic::Diagnostic;
 use crate::fault::Fault;

@@ -1,4 +1,4 @@
-//! SPIR-V → naga module with the entry point rebuilt and the uniforms found by name.
+//! SPIR-V → naga module with the entry point rebuilt.
 
 use super::entry::{self, AttributePart, CAPTURE_SLOT, StageVariable};
 use super::fuel::{self, LoopFuel};
@@ -6,46 +6,14 @@ use super::gate::{self, Costs};
 use super::opaque;
 use super::spirv::{self, LineTable, Reworked, UniformVariables, Unworkable};
 use super::undefined;
+use super::uniforms::{UniformBlock, bind_uniforms};
 use super::{LinkedInterface, TranslationRefusal};
 use crate::diagnostic::Diagnostic;
 use crate::fault::Fault;
 use crate::ffi::glslang::Stage;
 use crate::language::Text;
 use crate::source::Source;
-use naga::{AddressSpace, Handle, Module, ResourceBinding, Type, TypeInner};
-
-/// A scalar, vector or matrix in a block of uniforms.
-#[derive(Clone, Debug)]
-pub struct UniformMember {
-    /// Its path, such as `lights[1].colour` or, in a named block, `Light.ambient`.
-    pub path: String,
-    /// Its path without the block's name, where the block has no instance name.
-    pub alias: Option<String>,
-    /// Offset in its block, in bytes.
-    pub offset: u32,
-    /// Its type.
-    pub ty: TypeInner,
-}
-
-impl UniformMember {
-    /// The paths by which the program may set it.
-    pub fn paths(&self) -> impl Iterator<Item = &str> {
-        [Some(self.path.as_str()), self.alias.as_deref()].into_iter().flatten()
-    }
-}
-
-/// A block of uniforms: binding 0, 1, … of group 0.
-#[derive(Clone, Debug)]
-pub struct UniformBlock {
-    /// Its binding in group 0.
-    pub binding: u32,
-    /// Its size in bytes.
-    pub size: u32,
-    /// Whether it is OpenGL's default block, whose members the program sets by name.
-    pub is_default: bool,
-    /// Its members.
-    pub members: Vec<UniformMember>,
-}
+use naga::{Module, TypeInner};
 
 /// A stage that wgpu can run.
 #[derive(Clone, Debug)]
@@ -250,61 +218,4 @@ pub fn unsupported(detail: &str) -> Fault {
         "これは ggrade 側の制限で、減点にはなりません。ファイルを担当教員に見せてください。\
          対応していない書き方は docs/limits.md にあります。",
     ))
-}
-
-/// Gives the uniform blocks the bindings 0, 1, … of group 0 and lists their members.
-fn bind_uniforms(module: &mut Module) -> Vec<UniformBlock> {
-    let mut blocks = Vec::new();
-    let types = &module.types;
-    for (_, variable) in module.global_variables.iter_mut() {
-        if variable.space != AddressSpace::Uniform {
-            continue;
-        }
-        let binding = blocks.len() as u32;
-        variable.binding = Some(ResourceBinding { group: 0, binding });
-        blocks.push(block(types, variable, binding));
-    }
-    blocks
-}
-
-fn block(types: &naga::UniqueArena<Type>, variable: &naga::GlobalVariable, binding: u32) -> UniformBlock {
-    let TypeInner::Struct { members, span } = &types[variable.ty].inner else {
-        return UniformBlock { binding, size: 16, is_default: false, members: Vec::new() };
-    };
-    let name = types[variable.ty].name.as_deref().unwrap_or_default();
-    let is_default = name == spirv::DEFAULT_BLOCK;
-    let mut found = Vec::new();
-    for member in members {
-        leaves(types, member.ty, member.name.clone().unwrap_or_default(), member.offset, &mut found);
-    }
-    for uniform in found.iter_mut().filter(|_| !is_default) {
-        let path = format!("{name}.{}", uniform.path);
-        let alias = std::mem::replace(&mut uniform.path, path);
-        uniform.alias = Some(alias);
-    }
-    UniformBlock { binding, size: *span, is_default, members: found }
-}
-
-/// The scalars, vectors and matrices that a type consists of.
-fn leaves(
-    types: &naga::UniqueArena<Type>,
-    ty: Handle<Type>,
-    path: String,
-    offset: u32,
-    found: &mut Vec<UniformMember>,
-) {
-    match &types[ty].inner {
-        TypeInner::Struct { members, .. } => {
-            for member in members {
-                let path = format!("{path}.{}", member.name.as_deref().unwrap_or_default());
-                leaves(types, member.ty, path, offset + member.offset, found);
-            }
-        }
-        TypeInner::Array { base, size: naga::ArraySize::Constant(length), stride } => {
-            for index in 0..length.get() {
-                leaves(types, *base, format!("{path}[{index}]"), offset + index * stride, found);
-            }
-        }
-        inner => found.push(UniformMember { path, alias: None, offset, ty: inner.clone() }),
-    }
 }
