@@ -1,13 +1,16 @@
 //! The report as JSON: the contract `ggrade/report/v1`, in the order in which it is documented.
 
+mod values;
+
 use super::{
-    AdviceLine, Comment, Environment, FrameResult, Hints, Lateness, MapLookup, OwnValues, ProbeResult, Repair, Report,
-    RubricLine, SourceInfo, ValueAt, ValueLine, ValuePlace, Verdict,
+    AdviceLine, Comment, Environment, FrameResult, Hints, Lateness, MapLookup, ProbeResult, Repair, Report, RubricLine,
+    SourceInfo, Verdict,
 };
 use crate::cross_check::{CrossCheck, Opinion};
 use crate::diagnostic::{Diagnostic, DiagnosticStage, Severity};
 use crate::language::Language;
 use serde::{Serialize, Serializer};
+use values::JsonValues;
 
 /// Name and version of the contract.
 pub const SCHEMA: &str = "ggrade/report/v1";
@@ -180,43 +183,6 @@ impl<'a> JsonRubricLine<'a> {
             file: file_of(report, line.file.as_deref(), line.line),
             line: line.line,
         }
-    }
-}
-
-/// What the files compute on their way.
-#[derive(Debug, Serialize)]
-#[cfg_attr(feature = "service", derive(utoipa::ToSchema), schema(as = OwnValues))]
-struct JsonValues<'a> {
-    places: &'a [ValuePlace],
-    lines: Vec<Followed<'a>>,
-}
-
-/// A statement that gives a variable its value; those are in the order in which they run.
-#[derive(Debug, Serialize)]
-#[cfg_attr(feature = "service", derive(utoipa::ToSchema), schema(as = ValueLine))]
-struct Followed<'a> {
-    file: Option<&'a str>,
-    line: u32,
-    name: &'a str,
-    function: Option<&'a str>,
-    times: u32,
-    /// What it should be, in words, where that is known.
-    means: Option<&'a str>,
-    values: &'a [Option<ValueAt>],
-}
-
-impl<'a> JsonValues<'a> {
-    fn of(report: &'a Report, values: &'a OwnValues, language: Language) -> Self {
-        let line = |followed: &'a ValueLine| Followed {
-            file: file_of(report, followed.file.as_deref(), Some(followed.line)),
-            line: followed.line,
-            name: &followed.name,
-            function: followed.function.as_deref(),
-            times: followed.times,
-            means: followed.means.as_ref().map(|means| means.get(language)),
-            values: &followed.values,
-        };
-        Self { places: &values.places, lines: values.lines.iter().map(line).collect() }
     }
 }
 

@@ -1,5 +1,7 @@
 //! What a report shows, part by part, as the templates need it.
 
+mod equation;
+
 use super::listing::{self, FileListing};
 use super::map::MapView;
 use super::mark::Mark;
@@ -14,8 +16,9 @@ use crate::report::labels::{Labels, mistake_title};
 use crate::report::text::number;
 use crate::report::{AdviceLine, Hints, Report, RubricLine, Verdict};
 use askama::Template;
+use equation::EquationView;
 use reference::Assignment;
-use reference::typeset::{SumPart, SymbolMeaning, Typeset};
+use reference::typeset::SumPart;
 
 /// One line of the rubric.
 struct HtmlRubricLine {
@@ -130,46 +133,6 @@ impl SecondOpinion {
             message: checked.message.as_ref().map(|message| message.get(language).to_owned()),
             anchor: anchor(report, None, checked.line),
             place: place(report, labels, None, checked.line),
-        }
-    }
-}
-
-/// The equation with the marks of its terms.
-struct EquationView<'a> {
-    source: &'a str,
-    total: &'a str,
-    sum: &'a [SumPart],
-    terms: Vec<EquationTerm<'a>>,
-    definitions: Vec<(&'a str, &'a str, &'a str)>,
-}
-
-struct EquationTerm<'a> {
-    symbol: &'a str,
-    value: &'a str,
-    mark: Mark,
-    label: String,
-    points: String,
-}
-
-impl<'a> EquationView<'a> {
-    fn of(equation: &'a Typeset, rubric: &[HtmlRubricLine], language: Language) -> Self {
-        let terms = equation.terms.iter().filter_map(|term| {
-            let line = rubric.iter().find(|line| line.id == term.line)?;
-            Some(EquationTerm {
-                symbol: &term.symbol,
-                value: &term.value,
-                mark: line.mark,
-                label: line.label.clone(),
-                points: format!("{} / {}", line.points, line.max_points),
-            })
-        });
-        let given = |given: &'a SymbolMeaning| (&*given.symbol, &*given.value, language.of(&given.source));
-        Self {
-            source: language.of(&equation.source),
-            total: &equation.total,
-            sum: &equation.sum,
-            terms: terms.collect(),
-            definitions: equation.given.iter().map(given).collect(),
         }
     }
 }
