@@ -9,8 +9,9 @@ mod record;
 mod storage;
 
 use super::limits::{IntakeLimits, spent, too_deep, too_many};
+use super::moodle;
+use super::reader::IntakeReader;
 use super::tree::{self, Held, TreeFolder, TreeNode};
-use super::{IntakeReader, moodle};
 use crate::language::Text;
 use crate::slots::NameFit;
 use record::ArchiveRecord;

@@ -1,7 +1,8 @@
 //! A folder of this machine → a tree. No link is followed, and only ordinary files are opened.
 
+use super::reader::IntakeReader;
 use super::tree::{self, Held, TreeFolder, TreeNode};
-use super::{IntakeReader, archive, limits};
+use super::{archive, limits};
 use crate::language::Text;
 use nix::fcntl::OFlag;
 use std::collections::HashMap;
