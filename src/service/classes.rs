@@ -4,12 +4,14 @@
 mod download;
 mod jobs;
 mod people;
+mod standing;
 
 pub use download::{Download, DownloadOptions, DownloadSelection, Pick, Steps, archive, download, is_slow, language};
 pub use jobs::{DownloadJob, Jobs, Made};
 #[cfg(test)]
 pub(in crate::service) use people::samples;
-pub use people::{People, Person, PersonStanding, of_batch, people};
+pub use people::{People, Person, of_batch, people};
+pub use standing::PersonStanding;
 
 use super::State;
 use super::errors::Problem;

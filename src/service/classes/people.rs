@@ -1,8 +1,8 @@
 //! The class as people: what each has handed in, and what of it counts.
 
+use super::PersonStanding;
 use crate::batch::class::Participant;
 use crate::language::Text;
-use crate::report::Verdict;
 use crate::service::State;
 use crate::service::clock::Millis;
 use crate::service::counting::{Counting, counted};
@@ -67,59 +67,6 @@ impl Person {
     pub fn latest(&self) -> Option<Millis> {
         self.rows.first().map(|row| row.row.submission.received_at)
     }
-}
-
-/// How somebody stands.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum PersonStanding {
-    /// By the verdict of the attempt that counts.
-    Graded(Verdict),
-    /// Being graded.
-    Queued,
-    /// Our fault.
-    Failed,
-    /// There is something, and nothing to grade in it.
-    Ungraded,
-    /// On the roster, and nothing handed in.
-    Nothing,
-}
-
-impl PersonStanding {
-    /// Its name in an address.
-    pub fn id(self) -> &'static str {
-        match self {
-            Self::Graded(Verdict::Correct) => "correct",
-            Self::Graded(Verdict::Wrong) => "wrong",
-            Self::Graded(Verdict::Rejected) => "rejected",
-            Self::Graded(Verdict::Stopped) => "stopped",
-            Self::Queued => "queued",
-            Self::Failed => "failed",
-            Self::Ungraded => "ungraded",
-            Self::Nothing => "nothing",
-        }
-    }
-
-    /// Its place from the best to the least.
-    pub fn rank(self) -> usize {
-        Self::ALL.iter().position(|standing| *standing == self).unwrap_or(Self::ALL.len())
-    }
-
-    /// Whether a teacher has to look: it could not be graded.
-    pub fn is_trouble(self) -> bool {
-        matches!(self, Self::Failed | Self::Ungraded)
-    }
-
-    /// All, from the best to the least.
-    pub const ALL: [Self; 8] = [
-        Self::Graded(Verdict::Correct),
-        Self::Graded(Verdict::Wrong),
-        Self::Graded(Verdict::Rejected),
-        Self::Graded(Verdict::Stopped),
-        Self::Queued,
-        Self::Failed,
-        Self::Ungraded,
-        Self::Nothing,
-    ];
 }
 
 /// Everyone, as far as they are told apart.
@@ -237,6 +184,7 @@ impl Gathered {
 pub(in crate::service) mod samples {
     use super::*;
     use crate::diagnose::Hints;
+    use crate::report::Verdict;
     use crate::service::store::{HistoryRow, Submission, Via};
 
     /// Somebody with files of (time, points of 100, mistake), in the order of time.
@@ -278,7 +226,7 @@ pub(in crate::service) mod samples {
 mod tests {
     use super::samples::person;
     use super::*;
-    use crate::report::Lateness;
+    use crate::report::{Lateness, Verdict};
 
     #[test]
     fn the_rule_says_which_attempt_counts() {
