@@ -9,6 +9,7 @@ mod accounts;
 mod codes;
 mod cookies;
 mod csrf;
+mod extractors;
 mod join;
 mod login;
 mod pseudonyms;
@@ -24,6 +25,7 @@ pub use codes::{code_needed, personal_code, personal_link};
 pub use cookies::{Jar, STUDENT_COOKIE, TEACHER_COOKIE};
 pub(super) use cookies::{has_launch, has_trial, set_launch, set_sign_in, set_trial};
 pub(super) use cookies::{named as cookie, of_visitor as visitor_cookie};
+pub use extractors::{LecturerPage, TeacherPage};
 pub(super) use join::become_student;
 pub use join::{
     check_course_link, course_link, course_secret, join, leave, normal_number, renew_course_secret, with_code,
@@ -36,7 +38,7 @@ pub(crate) use staff::SHORTEST_PASSWORD;
 pub use staff::{
     add_staff, check_may_manage, choose_password, invitation_link, invite, invited, let_in, member_of, set_staff,
 };
-pub use teacher::{LecturerPage, Teacher, TeacherPage};
+pub use teacher::Teacher;
 pub(super) use teacher::{bearer, is_teachers_program};
 pub use tokens::{LONGEST_DAYS, WantedToken, end_token, make_token, tokens_for};
 pub use visitor::{Visitor, visit};

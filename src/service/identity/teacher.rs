@@ -4,16 +4,15 @@ use super::accounts::in_course;
 use super::cookies::{TEACHER_COOKIE, read};
 use super::secrets::same;
 use super::{csrf, token_hash};
+use crate::service::Service;
 use crate::service::errors::Problem;
 use crate::service::store::{DeletionTarget, StaffMember, StaffRole, TeacherSession, TokenScope};
-use crate::service::{Scope, Service};
-use axum::extract::{FromRequestParts, Request};
+use axum::extract::Request;
 use axum::http::request::Parts;
 use axum::http::{Extensions, HeaderMap, Method, StatusCode, header};
-use axum::response::{IntoResponse, Redirect, Response};
 
 /// A teacher. As an argument of a handler it lets nobody else pass; where the handler is not of one homework, it asks which
-/// class they may see. What assistants may not do asks for more: [`LecturerPage`], [`Teacher::check_role`].
+/// class they may see. What assistants may not do asks for more: [`LecturerPage`](super::LecturerPage), [`Teacher::check_role`].
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Teacher {
     /// The session; none for a program.
@@ -91,7 +90,7 @@ impl Teacher {
     }
 
     /// Lets a request pass that the token is good for.
-    fn check_scope(&self, parts: &Parts) -> Result<(), Problem> {
+    pub(super) fn check_scope(&self, parts: &Parts) -> Result<(), Problem> {
         let hands_in = parts.method == Method::POST && parts.uri.path() == "/api/v1/submissions";
         match self.scope {
             TokenScope::All => Ok(()),
@@ -242,70 +241,4 @@ fn not_of_this_role(least: StaffRole) -> Problem {
         ),
     };
     Problem::new(StatusCode::FORBIDDEN, "role", en, ja)
-}
-
-impl<S: Scope> FromRequestParts<S> for Teacher {
-    type Rejection = Problem;
-
-    async fn from_request_parts(parts: &mut Parts, scope: &S) -> Result<Self, Problem> {
-        let found = Self::of_request(scope.whole(), &parts.headers, &mut parts.extensions).await?;
-        let teacher = found.ok_or_else(|| {
-            Problem::new(
-                StatusCode::UNAUTHORIZED,
-                "unauthorized",
-                "This is for teachers: send Authorization: Bearer with the teacher's token, or log in at /teacher/login.",
-                "教員用です。教員用トークンを Authorization: Bearer で送るか、/teacher/login でログインしてください。",
-            )
-        })?;
-        if let Some(service) = scope.own() {
-            teacher.check(&service.assignment.id)?;
-        }
-        if !teacher.sees_names {
-            super::pseudonyms::check(parts)?;
-        }
-        teacher.check_scope(parts)?;
-        Ok(teacher)
-    }
-}
-
-impl<S: Scope> axum::extract::OptionalFromRequestParts<S> for Teacher {
-    type Rejection = Problem;
-
-    async fn from_request_parts(parts: &mut Parts, scope: &S) -> Result<Option<Self>, Problem> {
-        let teacher = Self::of_request(scope.whole(), &parts.headers, &mut parts.extensions).await?;
-        teacher.as_ref().map_or(Ok(()), |teacher| teacher.check_scope(parts))?;
-        Ok(teacher)
-    }
-}
-
-/// A teacher on a page: anybody else is sent to log in.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct TeacherPage(pub Teacher);
-
-impl<S: Scope> FromRequestParts<S> for TeacherPage {
-    type Rejection = Response;
-
-    async fn from_request_parts(parts: &mut Parts, scope: &S) -> Result<Self, Response> {
-        match <Teacher as FromRequestParts<S>>::from_request_parts(parts, scope).await {
-            Ok(teacher) => Ok(Self(teacher)),
-            Err(problem) if problem.status == StatusCode::UNAUTHORIZED => {
-                Err(Redirect::to("/teacher/login").into_response())
-            }
-            Err(problem) => Err(problem.into_response()),
-        }
-    }
-}
-
-/// A lecturer or an administrator on a page: assistants are told that it is not theirs.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct LecturerPage(pub Teacher);
-
-impl<S: Scope> FromRequestParts<S> for LecturerPage {
-    type Rejection = Response;
-
-    async fn from_request_parts(parts: &mut Parts, scope: &S) -> Result<Self, Response> {
-        let TeacherPage(teacher) = TeacherPage::from_request_parts(parts, scope).await?;
-        teacher.check_role(StaffRole::Lecturer).map_err(IntoResponse::into_response)?;
-        Ok(Self(teacher))
-    }
 }
