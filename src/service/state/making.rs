@@ -1,6 +1,7 @@
 //! How a service comes to be: the first course from what it is started with, another one beside it.
 
-use super::{Service, ServiceParts, with_pictures};
+use super::homeworks::with_pictures;
+use super::{Service, ServiceParts};
 use crate::fault::Fault;
 use crate::service::Config;
 use crate::service::classes::Jobs;
