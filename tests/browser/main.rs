@@ -9,6 +9,7 @@ mod course;
 mod courses;
 mod drafts;
 mod editor;
+mod files;
 mod folders;
 mod offline;
 mod people;
