@@ -1,8 +1,8 @@
-//! Handing in: stored before it is graded, within what the teacher allows, whatever the file is.
+//! Handing in: stored before it is graded, within what the teacher allows.
 
 use crate::bench::{Bench, Fake, TEACHER, config};
 use crate::cluster::Database;
-use crate::{on_both, right, right_and_new, sample};
+use crate::on_both;
 use axum::body::Body;
 use axum::http::{Request, StatusCode, header};
 use ggrade::diagnose::Hints;
@@ -11,7 +11,6 @@ use ggrade::language::Text;
 use ggrade::service::Config;
 use ggrade::service::clock::Clock;
 use ggrade::service::store::{Audience, Priority, Store};
-use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Condvar, Mutex};
 use std::time::Duration;
@@ -22,9 +21,7 @@ on_both!(
     nothing_is_graded_twice_and_nothing_is_left,
     only_while_it_is_open,
     attempts_are_counted_by_student,
-    what_is_no_text_uses_up_nothing,
     what_is_old_is_removed,
-    hostile_files_are_answered_as_any_other,
 );
 
 /// A door that graders wait at.
@@ -210,39 +207,6 @@ async fn attempts_are_counted_by_student(database: Database) {
     bench.finish().await;
 }
 
-async fn what_is_no_text_uses_up_nothing(database: Database) {
-    let bench = Bench::with(database, config(), Arc::new(Fake(|| Ok(()))), Clock::system()).await;
-    let mut assignment = bench.state.store.assignment("ggsample06").await.expect("an assignment");
-    assignment.attempts = Some(2);
-    bench.state.store.set_assignment(&assignment).await.expect("set");
-    let hand_in = |bytes: Vec<u8>| {
-        let request = Request::post("/api/v1/submissions?student=s1")
-            .header(header::CONTENT_TYPE, "text/plain")
-            .header(header::AUTHORIZATION, format!("Bearer {TEACHER}"));
-        bench.send(request.body(Body::from(bytes)).expect("a request"))
-    };
-    let swapped =
-        std::iter::once(0xFEFF).chain("#version 410 core\nvoid main() {}\n".encode_utf16().map(u16::swap_bytes));
-    for bytes in [
-        b"\x89PNG\r\n\x1A\n\0\0\0\x0DIHDR\0\0\0\x01".to_vec(),
-        b"PK\x03\x04\x14\0\0\0\x08\0".to_vec(),
-        b"%PDF-1.7\n".to_vec(),
-        swapped.flat_map(u16::to_le_bytes).collect(),
-        b"void main() {\0}".to_vec(),
-    ] {
-        let reply = hand_in(bytes).await;
-        assert_eq!((reply.status, reply.problem().as_str()), (StatusCode::UNPROCESSABLE_ENTITY, "not-text"));
-    }
-    assert_eq!(bench.state.store.waiting().await.expect("counts"), (0, 0));
-    // What an editor in Japan saves is text: both attempts are left for it.
-    for encoding in ["shift-jis", "euc-jp"] {
-        let reply = hand_in(sample(&format!("hostile/accepted/encodings/{encoding}.vert"))).await;
-        assert_eq!(reply.status, StatusCode::CREATED, "{reply:?}");
-    }
-    assert_eq!(hand_in(right()).await.problem(), "attempts");
-    bench.finish().await;
-}
-
 async fn what_is_old_is_removed(database: Database) {
     let clock = Clock::fixed(1_700_000_000_000);
     let config = Config { retention_days: 30, ..config() };
@@ -262,50 +226,5 @@ async fn what_is_old_is_removed(database: Database) {
     // Another submission still has the very same file.
     let source = bench.get(&format!("/api/v1/submissions/{same_file}/source")).await;
     assert_eq!(source.body, b"old");
-    bench.finish().await;
-}
-
-/// Hostile files of every kind, each beside its expected report.
-const HOSTILE: [&str; 9] = [
-    "accepted/encodings",
-    "rejected/degenerate",
-    "rejected/preprocessor",
-    "rejected/recursion",
-    "stopped/compile-bombs",
-    "stopped/loops",
-    "stopped/memory",
-    "stopped/nesting",
-    "wrong/positions",
-];
-
-async fn hostile_files_are_answered_as_any_other(database: Database) {
-    let bench = Bench::new(database).await;
-    for kind in HOSTILE {
-        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("submissions/ggsample06/hostile").join(kind);
-        let mut names: Vec<_> = std::fs::read_dir(&folder)
-            .expect("a folder")
-            .map(|entry| entry.expect("an entry").path())
-            .filter(|path| path.extension().is_some_and(|extension| extension == "vert"))
-            .collect();
-        names.sort();
-        let path = names.first().expect("a sample");
-        let expected: serde_json::Value =
-            serde_json::from_slice(&std::fs::read(path.with_extension("json")).expect("an expectation")).expect("JSON");
-        let bytes = std::fs::read(path).expect("a sample");
-        assert_eq!(
-            ggrade::source::not_text(&reference::assignment("ggsample06").expect("built in").files[0], &bytes),
-            None,
-            "{}: no text, so refused at the door",
-            path.display()
-        );
-        let reply = bench.hand_in("", bytes).await;
-        assert_eq!(reply.status, StatusCode::CREATED, "{}: {reply:?}", path.display());
-        assert_eq!(reply.json()["report"]["verdict"], expected["verdict"], "{}", path.display());
-    }
-    // And honest ones go on.
-    let reply = bench.hand_in("", right_and_new()).await;
-    assert_eq!(reply.json()["report"]["verdict"], "correct");
-    assert_eq!(bench.hand_in("", right()).await.json()["report"]["verdict"], "correct");
-    assert_eq!(bench.hand_in("", sample("rejected/brace-missing-at-end.vert")).await.json()["report"]["score"], 0);
     bench.finish().await;
 }

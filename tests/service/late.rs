@@ -1,19 +1,16 @@
-//! Due dates, grace, late hand-ins and what they lose, deadlines of groups, and which hand-in counts.
+//! Due dates, grace, late hand-ins and what they lose, and deadlines of groups.
 
 use crate::bench::{Bench, Reply, config};
 use crate::cluster::Database;
-use crate::codes::Guest;
 use crate::on_both;
 use crate::roster::{file, form, get, request};
-use axum::body::Body;
-use axum::http::{StatusCode, header};
+use axum::http::StatusCode;
 use ggrade::fault::Fault;
 use ggrade::hand_in::HandIn;
 use ggrade::report::{Report, Verdict};
 use ggrade::sandbox::{GradedSubmission, GradingTask};
 use ggrade::service::clock::Clock;
 use ggrade::service::grading::Judge;
-use ggrade::service::identity::personal_code;
 use serde_json::{Value, json};
 use std::sync::Arc;
 use std::time::Duration;
@@ -22,7 +19,6 @@ on_both!(
     a_late_hand_in_loses_what_the_rules_say,
     what_is_wrong_with_the_rules_is_said,
     groups_and_students_have_later_deadlines,
-    the_last_or_the_chosen_one_counts,
 );
 
 /// Gives the points that stand in the file's first line.
@@ -58,22 +54,22 @@ pub fn graded(hand_in: &HandIn, score: f64) -> GradedSubmission {
 
 /// 2023-11-15 07:13:20 in Tokyo. The homework is due at 08:00.
 const NOW: i64 = 1_700_000_000_000;
-const MINUTE: Duration = Duration::from_secs(60);
+pub const MINUTE: Duration = Duration::from_secs(60);
 const HOUR: Duration = Duration::from_secs(3600);
-const DAY: Duration = Duration::from_secs(86_400);
+pub const DAY: Duration = Duration::from_secs(86_400);
 
 const ROSTER: &str = "number,name,グループ\nS1,和田 花子,Tue\nS2,B,Wed\nS3,C,Tue\n";
-const RULES: &str = "closes=2023-11-15T08%3A00&grace=10&late_until=2023-11-30T08%3A00&late_percent=10&late_span=day\
+pub const RULES: &str = "closes=2023-11-15T08%3A00&grace=10&late_until=2023-11-30T08%3A00&late_percent=10&late_span=day\
                      &late_floor=50&hints=full&audience=open";
 
-async fn bench(database: Database) -> (Bench, Clock) {
+pub async fn bench(database: Database) -> (Bench, Clock) {
     let clock = Clock::fixed(NOW);
     let bench = Bench::with(database, config(), Arc::new(Points), clock.clone()).await;
     file(&bench, "/teacher/roster", "roster", "r.csv", ROSTER.as_bytes()).await;
     (bench, clock)
 }
 
-async fn rules(bench: &Bench, rules: &str) {
+pub async fn rules(bench: &Bench, rules: &str) {
     assert_eq!(form(bench, "/teacher/settings", rules).await.status, StatusCode::SEE_OTHER, "{rules}");
 }
 
@@ -105,7 +101,7 @@ async fn line(bench: &Bench, address: &str, key: &str, number: &str) -> impl Fn(
     move |name| line[place(name)].to_owned()
 }
 
-async fn csv(bench: &Bench, number: &str) -> impl Fn(&str) -> String + use<> {
+pub async fn csv(bench: &Bench, number: &str) -> impl Fn(&str) -> String + use<> {
     line(bench, "/api/v1/class/files/csv", "key", number).await
 }
 
@@ -252,56 +248,5 @@ async fn groups_and_students_have_later_deadlines(database: Database) {
     // Whoever changes groups has the deadline of the new one.
     file(&bench, "/teacher/roster", "roster", "r.csv", ROSTER.replace("B,Wed", "B,Tue").as_bytes()).await;
     assert_eq!(penalties().await, [None, None]);
-    bench.finish().await;
-}
-
-async fn the_last_or_the_chosen_one_counts(database: Database) {
-    let (bench, clock) = bench(database).await;
-    rules(&bench, &format!("{RULES}&counting=last")).await;
-    let student = bench.state.store.student_by_number("S1").await.expect("a store").expect("a student");
-    let (mine, other) = (Guest::new(&bench).await, Guest::new(&bench).await);
-    mine.join(&bench, "S1", &personal_code(&bench.state, &student)).await;
-    let mut ids = Vec::new();
-    for points in ["90", "70", "80"] {
-        clock.advance(MINUTE);
-        ids.push(mine.hand_in(&bench, points).await.id());
-    }
-    let total = async || csv(&bench, "S1").await("total");
-    assert_eq!(total().await, "80");
-    let desk = mine.get(&bench, "/").await;
-    assert!(desk.all(".terms-of-hand-in li").contains(&"Counts so far 80 / 100".to_owned()), "{desk:?}");
-    assert!(desk.all(".attempts .best")[0].starts_with("80 / 100counts") && desk.all(".attempts form").is_empty());
-    let choose = async |guest: &Guest, id: &str| {
-        let request = guest.request("POST", "/a/ggsample06/choose").header(header::ACCEPT, "text/html");
-        let request = request.header(header::CONTENT_TYPE, "application/x-www-form-urlencoded");
-        let body = format!("csrf={}&submission={id}", guest.csrf(&bench).await);
-        bench.send(request.body(Body::from(body)).expect("a request")).await.status
-    };
-    assert_eq!(choose(&mine, &ids[0]).await, StatusCode::CONFLICT, "nobody chooses here");
-
-    rules(&bench, &format!("{RULES}&counting=chosen")).await;
-    assert_eq!(total().await, "80", "until somebody chooses");
-    let desk = mine.get(&bench, "/").await;
-    assert_eq!(desk.all(".attempts form"), ["Let this one count", "Let this one count"]);
-    assert_eq!(choose(&mine, &ids[0]).await, StatusCode::SEE_OTHER);
-    assert_eq!(total().await, "90");
-    assert_eq!(choose(&other, &ids[1]).await, StatusCode::NOT_FOUND, "of somebody else");
-    assert_eq!(total().await, "90");
-    clock.advance(MINUTE);
-    mine.hand_in(&bench, "60").await;
-    assert_eq!(total().await, "90", "the choice stays");
-    // When handing in is over, a lecturer may choose still.
-    clock.advance(DAY * 20);
-    assert_eq!(choose(&mine, &ids[1]).await, StatusCode::FORBIDDEN);
-    let chosen = form(&bench, "/teacher/choice", &format!("submission={}", ids[1])).await;
-    let person = get(&bench, chosen.header("location")).await;
-    assert!(person.all(".attempts .best")[0].starts_with("70 / 100counts"), "{person:?}");
-    assert_eq!(total().await, "70");
-    clock.advance(MINUTE);
-    let by_api = request("POST", &format!("/api/v1/submissions/{}/choice", ids[2]), "", Body::empty());
-    assert_eq!(bench.send(by_api).await.status, StatusCode::NO_CONTENT);
-    assert_eq!(total().await, "80");
-    let log = get(&bench, "/teacher/log").await.all(".people tbody tr");
-    assert_eq!(log.iter().filter(|row| row.contains("Chose which hand-in counts") && row.contains("S1")).count(), 2);
     bench.finish().await;
 }
