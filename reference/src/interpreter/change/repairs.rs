@@ -4,6 +4,7 @@
 //! its functions with what else they are given, its numbers.
 
 mod copies;
+mod declared;
 mod expressions;
 mod ingredients;
 mod size;
@@ -13,9 +14,10 @@ use super::inverse::of_statement;
 use super::programs::left_out;
 use super::tree::{ExpressionPlace, MetAs, Path, TreeWalk, paths, walk, with};
 use super::{Operator, written};
-use crate::interpreter::syntax::{Expression, ExpressionKind, Item, Name, Statement, StatementKind};
+use crate::interpreter::syntax::{Expression, ExpressionKind, Item, Statement, StatementKind};
 use crate::interpreter::{Program, Refusal, Stage, compile, parse, text};
 use copies::{copied, together};
+use declared::Declared;
 use expressions::of_expression;
 pub use ingredients::Ingredients;
 use size::{size, tokens};
@@ -28,8 +30,7 @@ pub struct Repairable {
     items: Vec<Item>,
     /// The bytes of the text at which something is written that a macro writes several times.
     copied: HashSet<u32>,
-    /// The members of the structures that it declares.
-    members: Vec<Name>,
+    declared: Declared,
     version: u32,
     stage: Stage,
 }
@@ -49,6 +50,8 @@ pub struct ProgramRepair {
     pub is_slip: bool,
     /// Whether it makes something of a value where it is only passed on.
     is_of_use: bool,
+    /// Whether what is wrong may as well be on another line.
+    is_elsewhere: bool,
     /// What is written there, and what belongs there; empty for a statement that goes.
     pub texts: [String; 2],
     place: Where,
@@ -69,7 +72,17 @@ impl ProgramRepair {
 
     /// A slip that is undone.
     fn slip(mistake: Operator, line: u32, texts: [String; 2], place: Where) -> Self {
-        Self { mistake, line, is_bound_by_zero: false, added: None, is_slip: true, is_of_use: false, texts, place }
+        Self {
+            mistake,
+            line,
+            is_bound_by_zero: false,
+            added: None,
+            is_slip: true,
+            is_of_use: false,
+            is_elsewhere: false,
+            texts,
+            place,
+        }
     }
 
     /// The places that are changed; none of a statement.
@@ -101,11 +114,9 @@ impl ProgramRepair {
         self.is_slip && size <= most
     }
 
-    /// Whether the line of what is wrong is known by it: not where a value only is used, or a part of a sum is missing.
+    /// Whether the line of what is wrong is known by it.
     pub fn is_of_its_line(&self) -> bool {
-        let is_elsewhere =
-            matches!(self.mistake, Operator::AddendLeftOut | Operator::OtherValue | Operator::OtherNumber);
-        self.is_slip || !self.is_of_use && !is_elsewhere
+        self.is_slip || !self.is_of_use && !self.is_elsewhere
     }
 }
 
@@ -121,8 +132,8 @@ impl Repairable {
         let preprocessed = text::preprocess(source)?;
         let tokens: Vec<_> = preprocessed.tokens.into_iter().map(text::Token::on_its_line).collect();
         let mut items = parse::parse(&tokens)?;
-        let (copied, members) = (copied(&mut items), undone::members(&items));
-        Ok(Self { items, copied, members, version: preprocessed.version, stage })
+        let (copied, declared) = (copied(&mut items), Declared::of(&items, stage));
+        Ok(Self { items, copied, declared, version: preprocessed.version, stage })
     }
 
     /// The changes of what stands on these lines. What is only exchanged, or has another sign, comes first; then what stands on the first
@@ -152,7 +163,7 @@ impl Repairable {
                 expression: &mut |own, met, names| {
                     let before = before.take();
                     if is_sought(own) {
-                        let all = of_expression(own, expression, names, right, &self.members).into_iter();
+                        let all = of_expression(own, expression, names, right, &self.declared).into_iter();
                         // Other bounds may have no end.
                         found.extend(all.filter(|(_, repair)| repair.is_slip || !matches!(met, MetAs::Bound)));
                         found.extend(before.map(|before| without_else(&before, own, expression)));
@@ -200,7 +211,7 @@ impl Repairable {
         Self {
             items: self.items_with(repair, false),
             copied: self.copied.clone(),
-            members: self.members.clone(),
+            declared: self.declared.clone(),
             ..*self
         }
     }

@@ -4,10 +4,11 @@ use super::super::inverse::mistake_of;
 use super::super::programs::{guess, of_name};
 use super::super::tree::{ExpressionPlace, Path, TypedNames, paths};
 use super::super::{Change, NameScope, Operator, bare, calls, changes, written};
+use super::declared::Declared;
 use super::undone;
 use super::{Ingredients, ProgramRepair, Where};
 use crate::interpreter::is_builtin;
-use crate::interpreter::syntax::{Binary, Expression, ExpressionKind, Name};
+use crate::interpreter::syntax::{Binary, Expression, ExpressionKind};
 use crate::interpreter::types::Type;
 use std::collections::HashSet;
 
@@ -17,7 +18,7 @@ pub(super) fn of_expression(
     number: usize,
     names: &TypedNames,
     right: &Ingredients,
-    members: &[Name],
+    declared: &Declared,
 ) -> Vec<(u32, ProgramRepair)> {
     let known = names.iter().rev().filter_map(|(name, kind)| Some((of_name(name, own.line), Type::named(kind)?)));
     let typed: Vec<(Expression, Type)> = known.collect();
@@ -25,11 +26,12 @@ pub(super) fn of_expression(
     let mut kind = |expression: &Expression| guess(expression, theirs);
     let scope = &mut NameScope { names: &typed, constants: &HashSet::new(), kind: &mut kind, free: false };
     let slips = changes(own, scope).into_iter().filter(|change| change.operator != Operator::WholeNumbers);
-    let mut found: Vec<(u32, ProgramRepair)> = slips.map(|change| of_slip(own, number, &change)).collect();
+    let mut found: Vec<(u32, ProgramRepair)> = slips.map(|change| of_slip(own, number, &change, declared)).collect();
     for path in paths(own) {
         let place = ExpressionPlace::of(own, &path);
-        let add = |mistake, expression| repair(number, &path, place.own, expression, mistake);
-        let undone = undone::changes(&place, theirs, members).into_iter();
+        let is_of_use = is_use(place.own, declared);
+        let add = |mistake, expression| repair((number, &path), place.own, expression, mistake, is_of_use);
+        let undone = undone::changes(&place, theirs, &declared.members).into_iter();
         found.extend(undone.map(|(mistake, expression)| (place.own.at, add(mistake, expression))));
         let Some(kind) = guess(place.own, theirs) else { continue };
         let added = right.changes(&place, &kind, theirs).into_iter().map(|added| ProgramRepair {
@@ -37,7 +39,8 @@ pub(super) fn of_expression(
             is_bound_by_zero: added.is_bound_by_zero,
             added: added.name,
             is_slip: false,
-            is_of_use: is_use(place.own),
+            is_elsewhere: added.is_elsewhere,
+            is_of_use,
             ..add(added.mistake, added.expression)
         });
         found.extend(added.map(|repair| (place.own.at, repair)));
@@ -51,27 +54,34 @@ pub(super) fn of_expression(
     found
 }
 
-fn of_slip(own: &Expression, number: usize, change: &Change) -> (u32, ProgramRepair) {
+fn of_slip(own: &Expression, number: usize, change: &Change, declared: &Declared) -> (u32, ProgramRepair) {
     let [before, after] = [own, &change.expression].map(|root| ExpressionPlace::of(root, &change.path).own);
     let is_bound_by_zero = change.is_bound_by_zero || calls::is_bound_by_zero(after);
-    let repair = repair(number, &change.path, before, after.clone(), mistake_of(own, change));
+    let place = (number, &change.path);
+    let repair = repair(place, before, after.clone(), mistake_of(own, change), is_use(before, declared));
     (before.at, ProgramRepair { is_bound_by_zero, ..repair })
 }
 
-/// The slip that one expression of another undoes, at a place of the expression with this number.
-fn repair(number: usize, path: &Path, before: &Expression, after: Expression, mistake: Operator) -> ProgramRepair {
+/// The slip that one expression in place of another undoes, by the number of the whole expression and the place in it.
+fn repair(
+    (number, path): (usize, &Path),
+    before: &Expression,
+    after: Expression,
+    mistake: Operator,
+    is_use: bool,
+) -> ProgramRepair {
     let texts = [written(before), written(&after)];
-    let is_of_use = is_use(before) && !is_substitute(mistake);
+    let is_of_use = is_use && !is_substitute(mistake);
     let line = line_of(before, &after);
     let place = Where::Expressions(vec![(number, path.clone(), after)]);
     ProgramRepair { is_of_use, ..ProgramRepair::slip(mistake, line, texts, place) }
 }
 
 /// Whether an expression only passes on what is made elsewhere in the text.
-fn is_use(own: &Expression) -> bool {
+fn is_use(own: &Expression, declared: &Declared) -> bool {
     match &bare(own).kind {
-        ExpressionKind::Name(_) => true,
-        ExpressionKind::Member(of, _) | ExpressionKind::Index(of, _) => is_use(of),
+        ExpressionKind::Name(name) => !declared.is_input(name),
+        ExpressionKind::Member(of, _) | ExpressionKind::Index(of, _) => is_use(of, declared),
         ExpressionKind::Call(name, _) => Type::named(name).is_none() && !is_builtin(name),
         _ => false,
     }

@@ -48,6 +48,8 @@ pub(super) struct Added {
     pub expression: Expression,
     pub name: Option<String>,
     pub is_bound_by_zero: bool,
+    /// Whether it would do as well on another line: a part of a sum, and what stands for all of a value.
+    pub is_elsewhere: bool,
 }
 
 impl Ingredients {
@@ -163,7 +165,18 @@ impl Ingredients {
     ) -> Vec<Added> {
         let (own, is_whole) = (place.own, place.is_whole());
         let mut found = Vec::new();
-        let plain = |mistake, expression| Added { mistake, expression, name: None, is_bound_by_zero: false };
+        let is_measured = place.parent.is_some_and(is_measure);
+        let plain = |mistake, expression| Added {
+            mistake,
+            expression,
+            name: None,
+            is_bound_by_zero: false,
+            is_elsewhere: match mistake {
+                Operator::AddendLeftOut => !is_measured,
+                Operator::OtherValue | Operator::OtherNumber => true,
+                _ => false,
+            },
+        };
         if let ExpressionKind::Floating(value, _) = own.kind {
             let others = self.numbers.iter().filter(|number| **number != value);
             let number = |number: &f64| Expression { kind: ExpressionKind::Floating(*number, false), ..own.clone() };
@@ -187,7 +200,7 @@ impl Ingredients {
         };
         let sums = [Binary::Add, Binary::Subtract];
         // A value is added to all that is added up, and multiplied with what is an addend, or given to something.
-        let is_sum = is_whole || has(own, &sums);
+        let is_sum = is_whole || is_measured || has(own, &sums);
         let is_addend = is_whole || place.parent.is_some_and(|parent| has(parent, &sums) || is_given_on(parent));
         if !is_sum && !is_addend {
             return found;
@@ -234,6 +247,11 @@ impl Ingredients {
         }
         found
     }
+}
+
+/// Whether an expression measures vectors, which are differences and sums of places and directions.
+fn is_measure(parent: &Expression) -> bool {
+    matches!(&parent.kind, ExpressionKind::Call(name, _) if ["distance", "dot", "length", "normalize"].contains(&&**name))
 }
 
 /// Whether an expression gives its operands to a function.

@@ -4,25 +4,8 @@ use super::super::calls::exchanged;
 use super::super::programs::guess;
 use super::super::tree::{ExpressionPlace, operands};
 use super::super::{Operator, bare};
-use crate::interpreter::syntax::{
-    BaseType, Binary, Declaration, Expression, ExpressionKind, Item, Name, TypeName, Unary,
-};
+use crate::interpreter::syntax::{Binary, Expression, ExpressionKind, Name, Unary};
 use crate::interpreter::types::Type;
-
-/// The members of the structures that a program declares.
-pub(super) fn members(items: &[Item]) -> Vec<Name> {
-    let declared = items.iter().filter_map(|item| match item {
-        Item::Declaration(Declaration { kind: TypeName { base: BaseType::Struct(_, members), .. }, .. }) => {
-            Some(members)
-        }
-        _ => None,
-    });
-    let variables = declared.flatten().flat_map(|member| &member.variables);
-    let mut names: Vec<Name> = variables.map(|variable| Name::clone(&variable.name)).collect();
-    names.sort();
-    names.dedup();
-    names
-}
 
 /// What is a number of two vectors, so that another number may be meant.
 const OF_VECTORS: [&str; 3] = ["dot", "length", "distance"];
