@@ -19,6 +19,24 @@ const MOST_LAYERS: usize = 64;
 /// to the rasteriser.
 const SUDDEN: u8 = 2;
 
+/// A colour that changes where what is rounded is this part more, or less, is decided by rounding.
+const ROUNDING: f64 = 4e-6;
+
+/// How far what a fragment is given is from what it is.
+#[derive(Clone, Copy, Default)]
+struct Shake {
+    /// Its place, in pixels.
+    moved: [f64; 2],
+    /// Uniforms that are rounded, by this part more, and what textures give, by this part less.
+    rounded: f64,
+}
+
+impl Shake {
+    fn uniforms(self, uniforms: &[Value]) -> Vec<Value> {
+        uniforms.iter().map(|value| value.rounded_up(self.rounded)).collect()
+    }
+}
+
 /// What is drawn, and by what it is coloured.
 pub(crate) struct Scenery<'a> {
     pub assignment: &'a Assignment,
@@ -56,7 +74,7 @@ impl Scenery<'_> {
         let mut sudden: Vec<u32> = Vec::new();
         let mut is_defined = true;
         for _ in 0..MOST_LAYERS {
-            let shaded = self.pixels(visible, &pixels, [0.0, 0.0]);
+            let shaded = self.pixels(visible, &pixels, Shake::default());
             sudden.extend(self.sudden(visible, &pixels, &shaded));
             is_defined &= !shaded.iter().any(is_undefined);
             let mut discarded = Vec::new();
@@ -116,14 +134,14 @@ impl Scenery<'_> {
         setup.ramp(values, varying.map(|varying| varying.interpolation).unwrap_or_default())
     }
 
-    /// What the fragments of these pixels come to, with their places moved by so many pixels.
-    fn pixels(&self, visible: &Visible, pixels: &[u32], moved: [f64; 2]) -> Vec<Shaded> {
+    /// What the fragments of these pixels come to.
+    fn pixels(&self, visible: &Visible, pixels: &[u32], shake: Shake) -> Vec<Shaded> {
         let fragments = self.fragments(visible, pixels);
         let mut all = vec![Shaded::Discarded; pixels.len()];
         // Triangles are numbered surface by surface.
         for own in fragments.chunk_by(|a, b| a.surface(visible) == b.surface(visible)) {
             for chunk in own.chunks(CHUNK) {
-                let colours = self.run(visible, own[0].surface(visible), chunk, moved);
+                let colours = self.run(visible, own[0].surface(visible), chunk, shake);
                 for (fragment, colour) in chunk.iter().zip(colours) {
                     fragment.pixel.into_iter().for_each(|place| all[place as usize] = colour);
                 }
@@ -133,9 +151,9 @@ impl Scenery<'_> {
     }
 
     /// Runs the fragment stage.
-    fn run(&self, visible: &Visible, surface: u32, fragments: &[Fragment], moved: [f64; 2]) -> Vec<Shaded> {
+    fn run(&self, visible: &Visible, surface: u32, fragments: &[Fragment], shake: Shake) -> Vec<Shaded> {
         let undefined = || vec![Shaded::Colour([f64::NAN; 3]); fragments.len()];
-        let Some(outputs) = self.outputs(visible, surface, fragments, moved, false) else { return undefined() };
+        let Some(outputs) = self.outputs(visible, surface, fragments, shake, false) else { return undefined() };
         let columns = match outputs.locals.first() {
             Some(local) => local.values.clone(),
             None => scalars(&outputs, self.pipeline.colour),
@@ -154,14 +172,15 @@ impl Scenery<'_> {
         visible: &Visible,
         surface: u32,
         fragments: &[Fragment],
-        moved: [f64; 2],
+        shake: Shake,
         notes_lookups: bool,
     ) -> Option<Outputs> {
         let program: &Program = &self.pipeline.fragment;
-        let uniforms = &self.shapes[surface as usize].uniforms;
-        let given = self.inputs(visible, program, fragments, moved);
+        let uniforms = &shake.uniforms(&self.shapes[surface as usize].uniforms);
+        let given = self.inputs(visible, program, fragments, shake.moved);
         let slices: Vec<(&str, Vec<&[f64]>)> = given.iter().map(|(name, columns)| (*name, slices(columns))).collect();
-        let mut run = self.assignment.fed(program, fragments.len(), UniformsOf::All(uniforms))?;
+        let mut run =
+            self.assignment.fed(program, fragments.len(), UniformsOf::All(uniforms))?.texels(1.0 - shake.rounded);
         for (name, columns) in &slices {
             run = run.input(name, columns).ok()?;
         }
@@ -175,7 +194,7 @@ impl Scenery<'_> {
         let fragments = self.fragments(visible, &[pixel]);
         let Some(place) = fragments.iter().position(|fragment| fragment.pixel.is_some()) else { return Vec::new() };
         let surface = fragments[place].surface(visible);
-        let outputs = self.outputs(visible, surface, &fragments, [0.0, 0.0], true);
+        let outputs = self.outputs(visible, surface, &fragments, Shake::default(), true);
         let all = outputs.into_iter().flat_map(|outputs| outputs.lookups);
         all.filter(|one| one.sample == place).collect()
     }
@@ -186,13 +205,13 @@ impl Scenery<'_> {
         let mut chunks =
             all.chunk_by(|a, b| a.surface(visible) == b.surface(visible)).flat_map(|own| own.chunks(CHUNK));
         chunks.find_map(|chunk| {
-            let outputs = self.outputs(visible, chunk[0].surface(visible), chunk, [0.0, 0.0], false)?;
+            let outputs = self.outputs(visible, chunk[0].surface(visible), chunk, Shake::default(), false)?;
             let is_seen = |at: usize| chunk[at].pixel.is_some() && !outputs.discarded[at];
             outputs.outputs.get(self.pipeline.colour)?.first_undefined(is_seen)
         })
     }
 
-    /// The pixels whose colour is another one a little beside: a step, or the edge of a hole.
+    /// The pixels whose colour is another one a little beside: a step, or the edge of a hole; and those where rounding decides.
     fn sudden(&self, visible: &Visible, pixels: &[u32], shaded: &[Shaded]) -> Vec<u32> {
         let bytes = |shaded: &Shaded| match shaded {
             Shaded::Colour(colour) if colour.iter().all(|channel| channel.is_finite()) => Some(quantised(*colour)),
@@ -221,9 +240,14 @@ impl Scenery<'_> {
         let mut sudden: Vec<u32> =
             pixels.iter().zip(shaded).filter(|(_, shaded)| is_undefined(shaded)).map(|(p, _)| *p).collect();
         for moved in [[near, 0.0], [-near, 0.0], [0.0, near], [0.0, -near]] {
-            let there = self.pixels(visible, &at_steps, moved);
+            let there = self.pixels(visible, &at_steps, Shake { moved, ..Shake::default() });
             let differs = steps.iter().zip(&there).filter(|(place, shaded)| apart(&known[**place], &bytes(shaded)));
             sudden.extend(differs.map(|(place, _)| pixels[*place]));
+        }
+        for rounded in [ROUNDING, -ROUNDING].into_iter().filter(|_| self.pipeline.nature.decides) {
+            let there = self.pixels(visible, pixels, Shake { rounded, ..Shake::default() });
+            let differs = there.iter().enumerate().filter(|(place, shaded)| apart(&known[*place], &bytes(shaded)));
+            sudden.extend(differs.map(|(place, _)| pixels[place]));
         }
         sudden
     }

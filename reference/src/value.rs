@@ -38,6 +38,17 @@ impl Value {
         Self { kind: self.kind.clone(), numbers: numbers.collect() }
     }
 
+    /// Vectors and floats with the numbers that have no short binary fraction, and so are rounded wherever they are made, by so large a
+    /// part greater.
+    pub(crate) fn rounded_up(&self, by: f64) -> Self {
+        let is_exact = |number: f64| (number * 1024.0).fract() == 0.0;
+        let mut value = self.clone();
+        if matches!(self.kind, Type::Vector(Scalar::Float, _)) {
+            value.numbers.iter_mut().filter(|number| !is_exact(**number)).for_each(|number| *number *= 1.0 + by);
+        }
+        value
+    }
+
     /// The value of a `float`, or the first component.
     pub fn float(&self) -> f64 {
         self.numbers.first().copied().unwrap_or(f64::NAN)

@@ -1,6 +1,6 @@
 //! What can be said of a program without running it.
 
-use super::code::{Code, Node, Operation, Slot};
+use super::code::{Code, Instruction, Node, Operation, Slot};
 use super::texture::LookupMode;
 use std::collections::HashMap;
 
@@ -13,6 +13,8 @@ pub struct Nature {
     pub implicit_levels: bool,
     /// It may throw fragments away.
     pub discards: bool,
+    /// It goes one of several ways, or its values have steps.
+    pub decides: bool,
 }
 
 impl Nature {
@@ -29,13 +31,41 @@ impl Nature {
                 Node::Derivative { .. } => self.derivatives = true,
                 Node::Texture(query) => self.implicit_levels |= matches!(query.mode, LookupMode::Implicit(_)),
                 Node::Discard => self.discards = true,
-                Node::If { yes, no, .. } => [yes, no].into_iter().for_each(|nodes| self.add(nodes)),
+                Node::Do(one) => self.decides |= has_steps(one),
+                Node::If { yes, no, .. } => {
+                    self.decides = true;
+                    [yes, no].into_iter().for_each(|nodes| self.add(nodes));
+                }
                 Node::Loop { test, body, step, .. } => [test, body, step].into_iter().for_each(|nodes| self.add(nodes)),
-                Node::Switch { cases, .. } => cases.iter().for_each(|(_, nodes)| self.add(nodes)),
+                Node::Switch { cases, .. } => {
+                    self.decides = true;
+                    cases.iter().for_each(|(_, nodes)| self.add(nodes));
+                }
                 _ => {}
             }
         }
     }
+}
+
+/// Whether the result of an instruction jumps where what it is made of changes by little.
+fn has_steps(instruction: &Instruction) -> bool {
+    use Operation as Is;
+    matches!(
+        instruction.operation,
+        Is::Sign
+            | Is::Floor
+            | Is::Ceil
+            | Is::Trunc
+            | Is::Round
+            | Is::RoundEven
+            | Is::Fract
+            | Is::Mod
+            | Is::Less
+            | Is::LessEqual
+            | Is::Equal
+            | Is::NotEqual
+            | Is::Truncate
+    )
 }
 
 /// A scalar of an output that is only handed on.
@@ -95,7 +125,10 @@ mod tests {
     fn what_needs_neighbours_is_seen_in_functions_and_branches() {
         let text = "in vec2 a; out float b; float f(float x) { if (x > 0.0) { discard; } return fwidth(x); }\n\
             void main() { b = f(a.x); }";
-        assert_eq!(fragment(text).nature(), Nature { derivatives: true, implicit_levels: false, discards: true });
+        assert_eq!(
+            fragment(text).nature(),
+            Nature { derivatives: true, implicit_levels: false, discards: true, decides: true }
+        );
         assert_eq!(fragment("in vec2 a; out float b; void main() { b = a.x; }").nature(), Nature::default());
     }
 }

@@ -63,6 +63,7 @@ pub struct Run<'a> {
     precision: Precision,
     fuel: u64,
     notes_lookups: bool,
+    texels: f64,
 }
 
 impl<'a> Run<'a> {
@@ -76,6 +77,7 @@ impl<'a> Run<'a> {
             precision: Precision::Exact,
             fuel: FUEL,
             notes_lookups: false,
+            texels: 1.0,
         }
     }
 
@@ -156,6 +158,11 @@ impl<'a> Run<'a> {
         Self { notes_lookups: true, ..self }
     }
 
+    /// Multiplies what textures give with a number near 1, save what every driver holds exactly: 0 and 1.
+    pub fn texels(self, texels: f64) -> Self {
+        Self { texels, ..self }
+    }
+
     /// Runs, and gives the outputs.
     ///
     /// # Errors
@@ -176,6 +183,7 @@ impl<'a> Run<'a> {
         let block = block.min(self.samples.max(1));
         let mut machine = Machine::new(code, self.textures, block, self.precision, self.fuel);
         machine.lookups = self.notes_lookups.then(Vec::new);
+        machine.texels = self.texels;
         for &(slot, value) in code.defaults.iter().chain(&self.uniforms) {
             machine.memory.column_mut(slot).fill(value);
         }

@@ -92,6 +92,10 @@ impl Machine<'_> {
                 None => self.look_up_one(query, lane),
             };
         }
+        if self.texels != 1.0 && query.sampler.texel.is_floating() && !query.sampler.shadow {
+            let inexact = results.iter_mut().flatten().filter(|value| **value != 0.0 && **value != 1.0);
+            inexact.for_each(|value| *value *= self.texels);
+        }
         let inherited = |lane: usize| {
             query.operands().map(|slot| self.memory.cause(slot, lane)).find(|&cause| cause != 0).unwrap_or(0)
         };

@@ -32,6 +32,8 @@ pub(super) struct Machine<'a> {
     pub recorder: Option<Box<Recorder>>,
     /// The lookups, where they are noted.
     pub lookups: Option<Vec<NotedLookup>>,
+    /// What is between 0 and 1 of a texel is multiplied with this.
+    pub texels: f64,
 }
 
 impl<'a> Machine<'a> {
@@ -51,6 +53,7 @@ impl<'a> Machine<'a> {
             fuel,
             recorder: None,
             lookups: None,
+            texels: 1.0,
         }
     }
 
