@@ -12,8 +12,8 @@ use glam::DVec3;
 use reference::assignment::RubricLine;
 use reference::equation::Reads;
 use reference::fit::TermJudgement;
-use reference::interpreter::Stage;
-use reference::interpreter::trace::{Event, Trace};
+use reference::interpreter::trace::{Event, Trace, What};
+use reference::interpreter::{Binary, Stage};
 use reference::pipeline::POSITION;
 use reference::traced::{Bench, Place};
 
@@ -63,28 +63,32 @@ pub(super) fn credited(evidence: &Evidence<'_>, judged: Vec<TermJudgement>, line
     if credited.iter().all(TermJudgement::is_right) { judged } else { credited }
 }
 
-/// Whether the text computes some term that the rubric judges, right and not the same everywhere, whatever becomes of it.
+/// Whether the text computes some term that the rubric judges, right and not the same everywhere, whatever becomes of it; or, in one
+/// colour everywhere, one that is the same everywhere.
 pub(super) fn computes_a_term(evidence: &Evidence<'_>) -> bool {
     let Some(text) = TextEvaluation::of(evidence) else { return false };
-    evidence.assignment.rubric.iter().any(|line| {
-        let term = text.right(&line.judges);
-        !is_constant(&term) && !text.computing(&term).is_empty()
-    })
+    text.is_begun()
+        || evidence.assignment.rubric.iter().any(|line| {
+            let term = text.right(&line.judges);
+            !is_constant(&term) && !text.computing(&term).is_empty()
+        })
 }
 
-/// Whether the colour is made of something that a right answer computes as well and that is not the same everywhere. Then the
-/// text computes, and a mistake on the way may leave one colour for all places: it looks nothing up.
+/// Whether the colour is made of something that a right answer computes as well and that is not the same everywhere, or is one colour
+/// that such an answer begins with. Then the text computes, and a mistake on the way may leave one colour for all places: it looks
+/// nothing up.
 pub(super) fn is_computed(evidence: &Evidence<'_>) -> bool {
     let (Some(text), Some(program)) = (TextEvaluation::of(evidence), evidence.traced) else { return false };
     let outputs = program.stage(text.stage).outputs().iter().zip(&text.trace.outputs);
     let colours: Vec<usize> =
         outputs.filter(|(output, _)| output.name != POSITION).flat_map(|(_, events)| events.clone()).collect();
     let way = made_of(&text.trace, &colours);
-    evidence.assignment.equation.definitions().iter().any(|definition| {
-        let right = text.right(&definition.name);
-        let is_it = |event: &usize| is_same(&text.trace.events[*event], &right);
-        !is_constant(&right) && way.iter().any(is_it)
-    })
+    text.is_begun()
+        || evidence.assignment.equation.definitions().iter().any(|definition| {
+            let right = text.right(&definition.name);
+            let is_it = |event: &usize| is_same(&text.trace.events[*event], &right);
+            !is_constant(&right) && way.iter().any(is_it)
+        })
 }
 
 /// Whether no colour that the text computes is finite, so that what the driver shows says nothing.
@@ -140,6 +144,21 @@ impl<'a> TextEvaluation<'a> {
         let values: Vec<_> = self.places.iter().filter_map(value).collect();
         let lanes = self.trace.events.first().map_or(0, |event| event.lanes.len());
         of_places(&values, lanes / self.places.len().max(1))
+    }
+
+    /// Whether it shows one colour, and multiplies out a term that is the same everywhere: all else is not there yet.
+    fn is_begun(&self) -> bool {
+        let Some(program) = self.evidence.traced else { return false };
+        let sites = program.stage(self.stage).sites();
+        let is_product =
+            |event: &usize| matches!(sites[self.trace.events[*event].site].what, What::Binary(Binary::Multiply));
+        let is_one =
+            |seen: &DVec3| seen.to_array().iter().zip(self.colours[0].to_array()).all(|(a, b)| is_number(*a, b));
+        self.colours.iter().all(is_one)
+            && self.evidence.assignment.rubric.iter().any(|line| {
+                let term = self.right(&line.judges);
+                is_constant(&term) && self.computing(&term).iter().any(is_product)
+            })
     }
 
     /// Where the text computes a colour, alpha aside.
