@@ -244,6 +244,13 @@ impl Report {
         self.score - self.lateness.map_or(0.0, |lateness| lateness.penalty)
     }
 
+    /// The earlier line of the rubric of which the same is said, where points are lost: one mistake may cost several.
+    pub fn said_before(&self, line: &RubricLine) -> Option<&RubricLine> {
+        let is_lost = |line: &&RubricLine| line.points < line.max_points;
+        let before = self.rubric.iter().take_while(|other| other.id != line.id);
+        before.filter(is_lost).find(|other| is_lost(&line) && other.message == line.message)
+    }
+
     /// What lateness takes off and what is left, a line each; nothing where it is in time.
     pub fn lateness_lines(&self, language: Language) -> Vec<String> {
         self.lateness.map(|lateness| labels::lateness(lateness, self, language).into()).unwrap_or_default()

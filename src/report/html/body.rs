@@ -46,7 +46,10 @@ impl HtmlRubricLine {
             points: number(line.points),
             max_points: number(line.max_points),
             mistake: shown.map(titled),
-            message: pieces(line.message.get(language)),
+            message: match report.said_before(line) {
+                Some(before) => pieces(&labels.as_for(before.label.get(language))),
+                None => pieces(line.message.get(language)),
+            },
             anchor: anchor(report, line.file.as_deref(), line.line),
             place: place(report, labels, line.file.as_deref(), line.line),
         }

@@ -20,6 +20,15 @@ impl Labels {
         }
     }
 
+    /// What is said of a line of the rubric of which the same is to be said as of an earlier one.
+    pub fn as_for(&self, earlier: &str) -> String {
+        if self.japanese() {
+            format!("上の「{earlier}」と同じです。")
+        } else {
+            format!("The same as for “{earlier}” above.")
+        }
+    }
+
     pub fn severity(&self, severity: Severity) -> &'static str {
         match (severity, self.japanese()) {
             (Severity::Error, false) => "error",

@@ -1,7 +1,7 @@
 //! The lines of the rubric, with their bars.
 
 use super::{BAD, BOLD, DIM, GOOD, PARTIAL, ReportWriter, number};
-use crate::report::labels::mistake_title;
+use crate::report::labels::{Labels, mistake_title};
 use crate::report::wrap::{columns, pad, plain};
 use crate::report::{Report, RubricLine, Verdict};
 use anstyle::Style;
@@ -19,7 +19,13 @@ impl ReportWriter {
         for line in &report.rubric {
             self.rubric_line(assignment, line, column);
             if !full {
-                self.paragraph(2, line.message.get(self.language));
+                match report.said_before(line) {
+                    Some(before) => {
+                        let label = before.label.get(self.language);
+                        self.paragraph(2, &Labels::of(self.language).as_for(label));
+                    }
+                    None => self.paragraph(2, line.message.get(self.language)),
+                }
                 self.gap();
             }
         }
