@@ -75,6 +75,7 @@ fn say_solution(said: CheckWording, report: &Report) -> bool {
     let Some(apart) = report.probes.max_difference.filter(|_| is_right) else {
         said.line(is_right, &scored);
         report.diagnostics.iter().for_each(|one| anstream::println!("     {}", one.message.get(said.language)));
+        disagreements(report).iter().for_each(|one| anstream::println!("     {}", one.get(said.language)));
         return is_right;
     };
     let (probes, frames) = (report.probes.samples, report.frames.len());
@@ -87,6 +88,31 @@ fn say_solution(said: CheckWording, report: &Report) -> bool {
         format!("{}。インタープリターとドライバーの差は、検査点 {probes} 点で最大 {apart:.1e}、画像 {frames} 枚で最大 {steps}/255", scored.ja),
     ));
     true
+}
+
+/// Where the driver shows something else than the interpreter computes from the same solution.
+fn disagreements(report: &Report) -> Vec<Text> {
+    let lost = report.rubric.iter().filter(|line| line.points < line.max_points).map(|line| {
+        let (id, points, most) = (&line.id, line.points, line.max_points);
+        Text::new(
+            format!("rubric line `{id}`: {points} of {most} points"),
+            format!("評価項目 `{id}`: {most} 点中 {points} 点"),
+        )
+    });
+    let frames = report.frames.iter().filter(|frame| !frame.agrees()).map(|frame| {
+        let (t, pixels, others) = (frame.t, frame.mismatched_pixels, frame.coverage_mismatches);
+        Text::new(
+            format!(
+                "frame at t = {t:.3}: the driver's colour differs from the interpreter's in {pixels} pixels, and something is drawn by one of \
+                 them alone in {others}: does a comparison there hang on rounding?"
+            ),
+            format!(
+                "t = {t:.3} のフレーム: ドライバーとインタープリターで、{pixels} 画素の色が違い、{others} 画素は一方だけが描いています。\
+                 丸め誤差で結果が変わる比較はありませんか"
+            ),
+        )
+    });
+    lost.chain(frames).collect()
 }
 
 /// Says that this build has no OpenGL, which is no error of the homework.
