@@ -113,7 +113,7 @@ fn rubric(plan: &FolderPlan) -> String {
         text += &format!("keeps = {{ {} = 0 }}\nvariants = [{}]\n", key(&line.id), change.text());
         text += &format!(
             "seen.en = {}\nseen.ja = {}\n",
-            quoted(&format!("{en} does not show in the picture.")),
+            quoted(&format!("{en}: nothing of it shows in the picture.")),
             quoted(&format!("画像に{ja}が現れていません。"))
         );
         text += &format!(
@@ -123,7 +123,7 @@ fn rubric(plan: &FolderPlan) -> String {
         );
         text += &format!(
             "look.en = {}\nlook.ja = {}\n",
-            quoted(&format!("Which statement of yours computes it ({en}), and does its value reach the output?")),
+            quoted(&format!("{en}: which statement of yours computes it, and does its value reach the output?")),
             quoted(&format!("{ja}を計算している文はどれでしょうか。その値は出力まで届いているでしょうか。"))
         );
     }
