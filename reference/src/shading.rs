@@ -2,7 +2,7 @@
 
 mod fragments;
 
-use crate::interpreter::{NotedLookup, Outputs, Program, UndefinedCause};
+use crate::interpreter::{NotedLookup, Outputs, Program, Texels, Texture, UndefinedCause};
 use crate::pipeline::{PassedChannel, Pipeline, ShadedVertices, UniformsOf, scalars, slices};
 use crate::rasteriser::{Coverage, Frame, SILHOUETTE_DISTANCE, Setup, Visible, quantised};
 use crate::{Assignment, Value};
@@ -21,6 +21,9 @@ const SUDDEN: u8 = 2;
 
 /// A colour that changes where what is rounded is this part more, or less, is decided by rounding.
 const ROUNDING: f64 = 4e-6;
+
+/// One of so many pixels says whether a uniform is on a threshold.
+const FEW_OF_ALL: usize = 16;
 
 /// How far what a fragment is given is from what it is.
 #[derive(Clone, Copy, Default)]
@@ -211,6 +214,12 @@ impl Scenery<'_> {
         })
     }
 
+    /// Whether a texture has texels of 8 bits, which are the same number in many places.
+    fn reads_levels(&self) -> bool {
+        let is_of_bytes = |texture: &Texture| matches!(texture.levels[0].texels, Texels::Bytes(_) | Texels::Srgb(_));
+        self.assignment.textures.iter().any(is_of_bytes)
+    }
+
     /// The pixels whose colour is another one a little beside: a step, or the edge of a hole; and those where rounding decides.
     fn sudden(&self, visible: &Visible, pixels: &[u32], shaded: &[Shaded]) -> Vec<u32> {
         let bytes = |shaded: &Shaded| match shaded {
@@ -244,10 +253,19 @@ impl Scenery<'_> {
             let differs = steps.iter().zip(&there).filter(|(place, shaded)| apart(&known[**place], &bytes(shaded)));
             sudden.extend(differs.map(|(place, _)| pixels[*place]));
         }
+        let rounded_apart = |rounded: f64, each: usize| -> Vec<u32> {
+            let some: Vec<usize> = (0..pixels.len()).step_by(each).collect();
+            let of_some: Vec<u32> = some.iter().map(|place| pixels[*place]).collect();
+            let there = self.pixels(visible, &of_some, Shake { rounded, ..Shake::default() });
+            let differs = some.iter().zip(&there).filter(|(place, shaded)| apart(&known[**place], &bytes(shaded)));
+            differs.map(|(place, _)| pixels[*place]).collect()
+        };
         for rounded in [ROUNDING, -ROUNDING].into_iter().filter(|_| self.pipeline.nature.decides) {
-            let there = self.pixels(visible, pixels, Shake { rounded, ..Shake::default() });
-            let differs = there.iter().enumerate().filter(|(place, shaded)| apart(&known[*place], &bytes(shaded)));
-            sudden.extend(differs.map(|(place, _)| pixels[place]));
+            // A texel of 8 bits is on a threshold here and there, a uniform everywhere.
+            let is_anywhere = self.reads_levels() || !rounded_apart(rounded, FEW_OF_ALL).is_empty();
+            if is_anywhere {
+                sudden.extend(rounded_apart(rounded, 1));
+            }
         }
         sudden
     }
