@@ -7,6 +7,7 @@ use crate::pipeline::{PassedChannel, Pipeline, ShadedVertices, UniformsOf, scala
 use crate::rasteriser::{Coverage, Frame, SILHOUETTE_DISTANCE, Setup, Visible, quantised};
 use crate::{Assignment, Value};
 use fragments::Fragment;
+use std::borrow::Cow;
 use std::collections::HashMap;
 
 /// Pixels that are shaded together: enough that a run costs little, few enough that their columns stay small.
@@ -35,7 +36,10 @@ struct Shake {
 }
 
 impl Shake {
-    fn uniforms(self, uniforms: &[Value]) -> Vec<Value> {
+    fn uniforms(self, uniforms: &[Value]) -> Cow<'_, [Value]> {
+        if self.rounded == 0.0 {
+            return Cow::Borrowed(uniforms);
+        }
         uniforms.iter().map(|value| value.rounded_up(self.rounded)).collect()
     }
 }
@@ -244,27 +248,27 @@ impl Scenery<'_> {
             })
         };
         let steps: Vec<usize> = (0..pixels.len()).filter(|place| differs_beside(*place)).collect();
-        let at_steps: Vec<u32> = steps.iter().map(|place| pixels[*place]).collect();
         let near = SILHOUETTE_DISTANCE;
         let mut sudden: Vec<u32> =
             pixels.iter().zip(shaded).filter(|(_, shaded)| is_undefined(shaded)).map(|(p, _)| *p).collect();
-        for moved in [[near, 0.0], [-near, 0.0], [0.0, near], [0.0, -near]] {
-            let there = self.pixels(visible, &at_steps, Shake { moved, ..Shake::default() });
-            let differs = steps.iter().zip(&there).filter(|(place, shaded)| apart(&known[**place], &bytes(shaded)));
-            sudden.extend(differs.map(|(place, _)| pixels[*place]));
-        }
-        let rounded_apart = |rounded: f64, each: usize| -> Vec<u32> {
-            let some: Vec<usize> = (0..pixels.len()).step_by(each).collect();
-            let of_some: Vec<u32> = some.iter().map(|place| pixels[*place]).collect();
-            let there = self.pixels(visible, &of_some, Shake { rounded, ..Shake::default() });
-            let differs = some.iter().zip(&there).filter(|(place, shaded)| apart(&known[**place], &bytes(shaded)));
+        let changed = |places: &[usize], shake: Shake| -> Vec<u32> {
+            let at: Vec<u32> = places.iter().map(|place| pixels[*place]).collect();
+            let there = self.pixels(visible, &at, shake);
+            let differs = places.iter().zip(&there).filter(|(place, shaded)| apart(&known[**place], &bytes(shaded)));
             differs.map(|(place, _)| pixels[*place]).collect()
         };
-        for rounded in [ROUNDING, -ROUNDING].into_iter().filter(|_| self.pipeline.nature.decides) {
-            // A texel of 8 bits is on a threshold here and there, a uniform everywhere.
-            let is_anywhere = self.reads_levels() || !rounded_apart(rounded, FEW_OF_ALL).is_empty();
-            if is_anywhere {
-                sudden.extend(rounded_apart(rounded, 1));
+        for moved in [[near, 0.0], [-near, 0.0], [0.0, near], [0.0, -near]] {
+            sudden.extend(changed(&steps, Shake { moved, ..Shake::default() }));
+        }
+        if self.pipeline.nature.decides {
+            let all: Vec<usize> = (0..pixels.len()).collect();
+            let some: Vec<usize> = all.iter().copied().step_by(FEW_OF_ALL).collect();
+            for rounded in [ROUNDING, -ROUNDING] {
+                let shake = Shake { rounded, ..Shake::default() };
+                // A texel of 8 bits is on a threshold here and there, a uniform everywhere.
+                if self.reads_levels() || !changed(&some, shake).is_empty() {
+                    sudden.extend(changed(&all, shake));
+                }
             }
         }
         sudden

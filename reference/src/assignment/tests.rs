@@ -6,6 +6,7 @@ use std::path::Path;
 mod meshes;
 mod passes;
 mod refusals;
+mod rounding;
 mod solutions;
 mod texts;
 mod textures;

@@ -32,7 +32,7 @@ pub(super) struct Machine<'a> {
     pub recorder: Option<Box<Recorder>>,
     /// The lookups, where they are noted.
     pub lookups: Option<Vec<NotedLookup>>,
-    /// What is between 0 and 1 of a texel is multiplied with this.
+    /// What textures give is multiplied with this, save 0 and 1.
     pub texels: f64,
 }
 
