@@ -46,22 +46,24 @@ impl<'a> Reader<'a> {
     }
 
     fn sum(&mut self, at: &mut usize, end: usize) -> HostResult<HostExpression> {
-        let mut left = self.product(at, end)?;
-        while let Some(sign) = self.sign(*at, end, &["+", "-"]) {
-            let place = *at;
-            *at += 1;
-            let right = self.product(at, end)?;
-            left = self.combined(sign, left, right, place)?;
-        }
-        Ok(left)
+        self.chain(at, end, &["+", "-"], |reader, at| {
+            reader.chain(at, end, &["*", "/"], |reader, at| reader.signed(at, end))
+        })
     }
 
-    fn product(&mut self, at: &mut usize, end: usize) -> HostResult<HostExpression> {
-        let mut left = self.signed(at, end)?;
-        while let Some(sign) = self.sign(*at, end, &["*", "/"]) {
+    /// Parts with one of these signs between them, from left to right.
+    fn chain(
+        &mut self,
+        at: &mut usize,
+        end: usize,
+        signs: &[&str],
+        part: impl Fn(&mut Self, &mut usize) -> HostResult<HostExpression>,
+    ) -> HostResult<HostExpression> {
+        let mut left = part(self, at)?;
+        while let Some(sign) = self.sign(*at, end, signs) {
             let place = *at;
             *at += 1;
-            let right = self.signed(at, end)?;
+            let right = part(self, at)?;
             left = self.combined(sign, left, right, place)?;
         }
         Ok(left)
