@@ -39,7 +39,7 @@ const SAMPLES: [(&str, usize); 29] = [
     ("phong-shading", 158),
     ("rings", 16),
     ("schlick", 191),
-    ("several-lights", 183),
+    ("several-lights", 184),
     ("spot-directx", 226),
     ("spot-opengl", 218),
     ("spot-soft", 201),
