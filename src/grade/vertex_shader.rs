@@ -32,7 +32,7 @@ impl Grader {
             Ok(read) => read,
             Err(refusal) => return Ok(self.rejected(sources, refusal.diagnostics)),
         };
-        if let Some(error) = source::fragment_shader(&source, &self.interface.output.name) {
+        if let Some(error) = source::fragment_shader(&source, self.interface.colour()) {
             return Ok(self.refused(sources, Verdict::Rejected, vec![error]));
         }
         let mut translation = match translate::translate(&source, &self.interface) {
@@ -97,7 +97,7 @@ impl Grader {
         let batches: Vec<&DrawCall> = scene.frames.iter().flatten().chain(&scene.probes).collect();
         let samples = rendering.frame_samples.iter().chain(&rendering.probe_samples);
         let samples: Vec<&[Sample]> = samples.map(Vec::as_slice).collect();
-        cross_check::check(&source.text, &self.interface.output.name, &batches, &samples)
+        cross_check::check(&source.text, self.interface.colour(), &batches, &samples)
     }
 
     /// Whether a colour depends on what GLSL leaves undefined.

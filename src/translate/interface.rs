@@ -1,7 +1,7 @@
 //! What the assignment's program feeds to the shader and takes from it.
 
 use super::spirv::{CommonTexture, DeclaredUniform};
-use super::{Shader, TranslationRefusal};
+use super::{Shader, Stage, TranslationRefusal};
 use crate::diagnostic::{Diagnostic, DiagnosticStage};
 use crate::fault::Fault;
 use crate::language::Text;
@@ -22,12 +22,14 @@ pub struct Variable {
 /// The interface between the assignment's program and the student's vertex shader.
 #[derive(Clone, Debug)]
 pub struct LinkedInterface {
+    /// The stage that sees it.
+    pub stage: Stage,
     /// Vertex attributes.
     pub inputs: Vec<Variable>,
     /// Uniforms of the default block.
     pub uniforms: Vec<Variable>,
-    /// The varying that the fixed fragment shader reads.
-    pub output: Variable,
+    /// What the shader writes: the varyings that the fixed fragment shader reads, or a fragment shader's colours.
+    pub outputs: Vec<Variable>,
     /// Names of the constants that the handed-out file defines.
     pub constants: Vec<String>,
     /// The fixed fragment shader.
@@ -52,11 +54,14 @@ impl LinkedInterface {
             all[place + 1..].iter().all(|other| other.path != uniform.path)
         };
         let uniforms = all.iter().enumerate().filter(is_last);
-        let output = assignment.interface.outputs.first().ok_or_else(|| broken("there is no output"))?;
+        if assignment.interface.outputs.is_empty() {
+            return Err(broken("there is no output"));
+        }
         Ok(Self {
+            stage: Stage::Vertex,
             inputs: assignment.interface.inputs.iter().map(|input| variable(&input.name, &input.kind)).collect(),
             uniforms: uniforms.map(|(_, uniform)| variable(&uniform.path, &uniform.kind)).collect(),
-            output: variable(&output.name, &output.kind),
+            outputs: assignment.interface.outputs.iter().map(|output| variable(&output.name, &output.kind)).collect(),
             constants: assignment.constants.iter().map(|constant| constant.name.clone()).collect(),
             version: assignment
                 .files
@@ -69,6 +74,16 @@ impl LinkedInterface {
             alike: CommonTexture::of(&assignment.textures),
             fragment: CString::new(fixed).map_err(|_| broken("a NUL in the fixed stage"))?,
         })
+    }
+
+    /// The output that is looked at where only one is: the vertex's colour.
+    pub fn colour(&self) -> &str {
+        self.outputs.first().map_or("", |output| &output.name)
+    }
+
+    /// Whether it is what the shader writes.
+    pub(super) fn is_output(&self, name: &str) -> bool {
+        self.outputs.iter().any(|output| output.name == name)
     }
 
     /// The uniforms and blocks that the program sets, as a whole or in part.

@@ -23,10 +23,17 @@ pub(super) fn warnings(source: &Source, interface: &LinkedInterface) -> Vec<Diag
     if interface.fragment.is_empty() {
         return warnings;
     }
-    warnings.extend(invariant_pragma(source, version, &interface.output.name));
-    let output = interface.output.name.as_str();
+    let outputs = || interface.outputs.iter().map(|output| output.name.as_str());
+    warnings.extend(outputs().next().and_then(|output| invariant_pragma(source, version, output)));
     let code = text::without_directives(source.code());
-    warnings.extend(statements(&code).filter_map(|statement| qualifier(source, &statement, version, output)));
+    let fixed = interface.fragment.to_str().map(text::without_directives).unwrap_or_default();
+    let is_in_both = |output: &str, word: &str| {
+        statements(&fixed).any(|own| own.position(output).is_some() && own.position(word).is_some())
+    };
+    let of = |statement: CodeStatement<'_>| {
+        outputs().find_map(|output| qualifier(source, &statement, version, output, &|word| is_in_both(output, word)))
+    };
+    warnings.extend(statements(&code).filter_map(of));
     warnings
 }
 
@@ -119,7 +126,13 @@ fn differs(qualifier: &str, output: &str) -> Text {
 }
 
 /// What stands before the output and not before the fragment shader's input.
-fn qualifier(source: &Source, statement: &CodeStatement<'_>, version: i32, output: &str) -> Option<Diagnostic> {
+fn qualifier(
+    source: &Source,
+    statement: &CodeStatement<'_>,
+    version: i32,
+    output: &str,
+    is_in_both: &dyn Fn(&str) -> bool,
+) -> Option<Diagnostic> {
     let named = statement.position(output)?;
     let before = &statement.words[..named];
     let is_declaration = before.iter().any(|(_, word)| matches!(*word, "out" | "varying"));
@@ -133,7 +146,7 @@ fn qualifier(source: &Source, statement: &CodeStatement<'_>, version: i32, outpu
         "location" => FREE_LOCATIONS,
         _ => 0,
     };
-    let &place = before.iter().find(|(_, word)| version < until(word))?;
+    let &place = before.iter().find(|(_, word)| version < until(word) && !is_in_both(word))?;
     let message = match place.1 {
         // Smooth is what it is anyhow.
         "smooth" => Text::new(

@@ -135,13 +135,18 @@ impl HomeworkProgram {
         own.chain(sources.iter().map(|(_, source)| source.version())).max().unwrap_or(0)
     }
 
-    /// The interface as a stage sees it: what the vertex stage hands over is fed to the fragment stage.
+    /// The interface as a stage sees it: what the vertex stage hands over is fed to the fragment stage. Between two stages that are
+    /// handed in, names are free.
     fn seen_by(&self, stage: Stage) -> LinkedInterface {
-        let mut interface = self.interface.clone();
-        if stage == Stage::Fragment {
-            let written = self.fixed.iter().flat_map(|fixed| &fixed.shader.outputs);
-            interface.inputs =
-                written.map(|output| Variable { name: output.name.clone(), ty: output.ty.clone() }).collect();
+        let mut interface = LinkedInterface { stage, ..self.interface.clone() };
+        match stage {
+            Stage::Fragment => {
+                let written = self.fixed.iter().flat_map(|fixed| &fixed.shader.outputs);
+                interface.inputs =
+                    written.map(|output| Variable { name: output.name.clone(), ty: output.ty.clone() }).collect();
+            }
+            Stage::Vertex if self.fixed.is_none() => interface.outputs.clear(),
+            Stage::Vertex => {}
         }
         interface
     }

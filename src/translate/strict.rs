@@ -123,9 +123,10 @@ fn repeated_layout(source: &Source, statement: &CodeStatement<'_>) -> Option<Dia
 
 /// `layout(location = 1) out vec4 vc` where the fixed fragment shader's input has no location.
 fn located_output(source: &Source, statement: &CodeStatement<'_>, interface: &LinkedInterface) -> Option<Diagnostic> {
-    let name = interface.output.name.as_str();
     let place = statement.words[statement.position("location")?];
-    let is_output = statement.position("out").is_some() && statement.position(name).is_some();
+    let mut outputs = interface.outputs.iter().map(|output| output.name.as_str());
+    let name = outputs.find(|name| statement.position(name).is_some())?;
+    let is_output = statement.position("out").is_some();
     let message = Text::new(
         format!("In GLSL 4.20 the fragment shader's `{name}`, which has no location, does not find this one."),
         format!("GLSL 4.20 では、location の指定がないフラグメントシェーダの `{name}` とこの変数が結び付きません。"),

@@ -4,6 +4,7 @@ use super::file::{HintContext, macro_name};
 use super::tokens::Lexeme;
 use super::{CompilerMessage, suggestions, vocabulary};
 use crate::diagnostic::Diagnostic;
+use crate::ffi::glslang::Stage;
 use crate::language::Text;
 
 /// A message of the compiler and its wording for a student; `{}` stands for the token that it names.
@@ -230,7 +231,7 @@ pub fn warn(file: &HintContext<'_>, finding: &CompilerMessage<'_, '_>) -> Option
     }
     let word = message.split_ascii_whitespace().next().unwrap_or_default();
     if message.contains("deprecated in version") && vocabulary::is_qualifier(word) {
-        let (old, new) = (word, if word == "varying" { "out" } else { "in" });
+        let (old, new) = (word, if word == "varying" && file.interface.stage == Stage::Vertex { "out" } else { "in" });
         let text = Text::new(
             format!("`{old}` is GLSL before version 1.30; some drivers refuse it. Today it is written `{new}`."),
             format!(

@@ -6,15 +6,24 @@ use super::suggestions;
 use super::vocabulary;
 use crate::diagnostic::{Diagnostic, DiagnosticStage};
 use crate::language::Text;
+use crate::source;
+use crate::translate::Variable;
 use crate::translate::log::LogEntry;
 
 /// Puts a message of the linker into words.
 pub fn explain(file: &HintContext<'_>, entry: &LogEntry<'_>) -> Diagnostic {
     let message = entry.message;
+    let is_told = |output: &&Variable| {
+        let words = entry.more.iter().copied().chain([message, entry.token]);
+        words.flat_map(source::words).any(|(_, word)| word == output.name)
+    };
+    let output = || file.interface.outputs.iter().find(is_told);
     let found = if message.contains("no matching declaration for statically used input") {
-        Some(output_missing(file))
+        output().map(|output| output_missing(file, output))
+    } else if message.contains("Member names and types must match") {
+        members_differ(file, &entry.more.join(" "))
     } else if message.contains("must match") || message.contains("must be compatible") {
-        output_differs(file, message)
+        output().and_then(|output| output_differs(file, output, message))
     } else if message.contains("Missing entry point") {
         Some(no_main(file))
     } else if message.contains("Recursion detected") {
@@ -43,8 +52,8 @@ fn at(file: &HintContext<'_>, declaration: &DeclaredName<'_>, text: Text) -> Dia
 }
 
 /// How the fragment shader's input wants the output declared.
-fn output_hint(file: &HintContext<'_>) -> Text {
-    let needed = suggestions::declaration_of(file, &file.interface.output.name).unwrap_or_default();
+fn output_hint(file: &HintContext<'_>, name: &str) -> Text {
+    let needed = suggestions::declaration_of(file, name).unwrap_or_default();
     Text::new(
         format!("The fragment shader's input fits an output `{needed}`: the name and the type must be just these."),
         format!("フラグメントシェーダの入力に合う宣言は `{needed}` です。変数名と型をこれに合わせてください。"),
@@ -66,7 +75,7 @@ pub fn output_missing_as(file: &HintContext<'_>, own: &DeclaredName<'_>) -> Diag
             format!("この `{name}` は関数やブロックの中だけの変数です。出力変数 `{name}` がありません。"),
         )
     };
-    file.error_at(own.index, text).hint(output_hint(file))
+    file.error_at(own.index, text).hint(output_hint(file, name))
 }
 
 /// Whether `declaration` is an output variable, also in the words of old GLSL.
@@ -76,17 +85,17 @@ fn is_output(declaration: &DeclaredName<'_>) -> bool {
 }
 
 /// Says that the output of the homework is not declared.
-pub fn output_missing(file: &HintContext<'_>) -> Diagnostic {
-    let output = &file.interface.output;
+pub fn output_missing(file: &HintContext<'_>, output: &Variable) -> Diagnostic {
     let name = output.name.as_str();
-    let hint = output_hint(file);
+    let hint = output_hint(file, name);
     if let Some(swallowed) = file.swallowed(name).filter(|_| file.anywhere(name).is_none()) {
         return Diagnostic { stage: DiagnosticStage::Link, ..swallowed };
     }
     if let Some(own) = file.anywhere(name).filter(|d| !is_output(d)) {
         return Diagnostic { stage: DiagnosticStage::Link, ..output_missing_as(file, own) };
     }
-    let outputs: Vec<_> = file.declarations.iter().filter(|d| is_output(d) && d.name != name).collect();
+    let outputs: Vec<_> =
+        file.declarations.iter().filter(|d| is_output(d) && !file.interface.is_output(d.name)).collect();
     let near = vocabulary::nearest(name, outputs.iter().map(|d| d.name));
     let same_type = || outputs.iter().find(|d| d.ty == output.ty);
     match outputs.iter().find(|d| Some(d.name) == near).or_else(same_type).or(outputs.first()) {
@@ -109,8 +118,7 @@ pub fn output_missing(file: &HintContext<'_>) -> Diagnostic {
     }
 }
 
-fn output_differs(file: &HintContext<'_>, message: &str) -> Option<Diagnostic> {
-    let output = &file.interface.output;
+fn output_differs(file: &HintContext<'_>, output: &Variable, message: &str) -> Option<Diagnostic> {
     let own = file.declarations.iter().find(|d| d.name == output.name && is_output(d))?;
     let (name, ty, needed) = (own.name, &own.ty, &output.ty);
     let text = if message.contains("Types must match") || message.contains("Array sizes") {
@@ -129,6 +137,26 @@ fn output_differs(file: &HintContext<'_>, message: &str) -> Option<Diagnostic> {
         format!("It must be declared as `{declaration}`."),
         format!("`{declaration}` と宣言してください。"),
     )))
+}
+
+/// A structure or block that both stages declare: `more` is the compiler's `Block: S vertex stage: " float a" fragment stage: " int b"`.
+fn members_differ(file: &HintContext<'_>, more: &str) -> Option<Diagnostic> {
+    let behind = |words: &str| more.split_once(words).map(|(_, rest)| rest);
+    let name = behind("Block: ")?.split_whitespace().next()?;
+    let member = |stage: &str| behind(stage)?.trim_start_matches([' ', '"']).split('"').next();
+    let [vertex, fragment] = [member("vertex stage:")?, member("fragment stage:")?];
+    let own = file.declarations.iter().find(|d| d.role == DeclarationKind::Structure && d.name == name)?;
+    let text = Text::new(
+        format!("The two files declare `{name}` differently: `{vertex}` in the vertex shader, `{fragment}` here."),
+        format!(
+            "`{name}` の宣言が 2 つのファイルで異なっています。頂点シェーダでは `{vertex}`、ここでは `{fragment}` です。"
+        ),
+    );
+    let hint = Text::new(
+        "Both need the same members, with the same types and in the same order.",
+        "メンバは、名前も型も順序も、両方で同じにしてください。",
+    );
+    Some(at(file, own, text).hint(hint))
 }
 
 fn no_main(file: &HintContext<'_>) -> Diagnostic {

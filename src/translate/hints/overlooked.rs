@@ -7,8 +7,8 @@ use super::suggestions;
 use super::tokens::LexemeKind;
 use crate::diagnostic::{Diagnostic, DiagnosticStage};
 use crate::language::Text;
-use crate::translate::LinkedInterface;
 use crate::translate::log::MAX_DIAGNOSTICS;
+use crate::translate::{LinkedInterface, Variable};
 
 /// From this version on, the two shaders may differ in how an output is interpolated.
 const FREE_INTERPOLATION: u32 = 440;
@@ -92,11 +92,16 @@ fn is_conditional(file: &HintContext<'_>, offset: usize) -> bool {
 
 /// The output as a member of a block, which is not the variable that the fragment shader reads.
 fn output_in_block(file: &HintContext<'_>) -> Option<Diagnostic> {
-    let output = file.anywhere(&file.interface.output.name).filter(|d| !d.global)?;
+    file.interface.outputs.iter().find_map(|output| one_in_block(file, output))
+}
+
+fn one_in_block(file: &HintContext<'_>, variable: &Variable) -> Option<Diagnostic> {
+    let output = file.anywhere(&variable.name).filter(|d| !d.global)?;
     let inside = file.code[..output.index].iter().rposition(|token| matches!(token.text, "{" | "}"))?;
     let block = inside.checked_sub(1)?;
     let is_block = |d: &DeclaredName<'_>| d.role == DeclarationKind::Structure && d.ty == "out" && d.index == block;
-    (file.code[inside].text == "{" && file.declarations.iter().any(is_block)).then(|| super::link::output_missing(file))
+    (file.code[inside].text == "{" && file.declarations.iter().any(is_block))
+        .then(|| super::link::output_missing(file, variable))
 }
 
 /// An output that is `flat` or `noperspective` where the fragment shader's input is not, or the other way round.
@@ -105,7 +110,10 @@ fn interpolation(file: &HintContext<'_>) -> Option<Diagnostic> {
         return None;
     }
     let fragment = HintContext::new(file.interface.fragment.to_str().ok()?, file.interface);
-    let name = file.interface.output.name.as_str();
+    file.interface.outputs.iter().find_map(|output| interpolation_of(file, &fragment, &output.name))
+}
+
+fn interpolation_of(file: &HintContext<'_>, fragment: &HintContext<'_>, name: &str) -> Option<Diagnostic> {
     let is =
         |d: &&DeclaredName<'_>, qualifiers: [&str; 2]| d.global && d.name == name && qualifiers.iter().any(|q| d.is(q));
     let output = file.declarations.iter().find(|d| is(d, ["out", "varying"]))?;

@@ -1,6 +1,6 @@
 //! What GLSL does not allow with names, functions and declarations that it knows.
 
-use super::declarations::DeclarationKind;
+use super::declarations::{DeclarationKind, DeclaredName};
 use super::file::HintContext;
 use super::tokens::LexemeKind;
 use super::{CompilerMessage, brackets, disallowed, expression, mismatch};
@@ -19,7 +19,27 @@ pub fn explain(file: &HintContext<'_>, finding: &CompilerMessage<'_, '_>) -> Opt
     if finding.entry.token == "return" || message.contains("does not return a value") {
         return returned(file, finding);
     }
+    if message.starts_with("must be qualified as flat") {
+        return Some(not_interpolated(file, finding));
+    }
     disallowed::explain(file, finding)
+}
+
+/// An input of whole numbers that is not `flat`.
+fn not_interpolated(file: &HintContext<'_>, finding: &CompilerMessage<'_, '_>) -> Diagnostic {
+    let token = finding.entry.token;
+    let is_it = |d: &&DeclaredName<'_>| d.index > finding.index || d.ty == token && d.index == finding.index;
+    let own = file.declarations.iter().filter(|d| d.global).find(is_it);
+    let (ty, name) = own.map_or((token, "…"), |own| (own.ty.as_str(), own.name));
+    let text = Text::new(
+        format!("Nothing lies between whole numbers: an input of type `{ty}` has to be `flat`."),
+        format!("整数は補間できません。`{ty}` 型の入力変数には `flat` が必要です。"),
+    );
+    let diagnostic = file.error_at(own.map_or(finding.index, |own| own.index), text);
+    diagnostic.hint(Text::new(
+        format!("Write `flat in {ty} {name};` here and `flat out {ty} {name};` in the vertex shader."),
+        format!("ここでは `flat in {ty} {name};`、頂点シェーダでは `flat out {ty} {name};` と宣言してください。"),
+    ))
 }
 
 fn not_assignable(file: &HintContext<'_>, finding: &CompilerMessage<'_, '_>) -> Diagnostic {
@@ -49,7 +69,7 @@ fn not_assignable(file: &HintContext<'_>, finding: &CompilerMessage<'_, '_>) -> 
     let name = file.word(Some(base));
     let message = finding.entry.message;
     let declared = file.code.get(base).and_then(|token| file.visible(name, token.start));
-    if let Some(own) = declared.filter(|d| d.global && d.name == file.interface.output.name) {
+    if let Some(own) = declared.filter(|d| d.global && file.interface.is_output(d.name)) {
         return super::link::output_missing_as(file, own);
     }
     let line = declared.map(|d| file.line(d.start));

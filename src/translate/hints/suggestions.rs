@@ -30,7 +30,7 @@ pub fn hint_for_variable(file: &HintContext<'_>, finding: &CompilerMessage<'_, '
 
 fn interface_names<'a>(file: &HintContext<'a>) -> impl Iterator<Item = &'a str> {
     let interface = file.interface;
-    let variables = interface.inputs.iter().chain(&interface.uniforms).chain(std::iter::once(&interface.output));
+    let variables = interface.inputs.iter().chain(&interface.uniforms).chain(&interface.outputs);
     variables.map(|variable| variable.name.as_str()).chain(interface.constants.iter().map(String::as_str))
 }
 
@@ -78,9 +78,8 @@ pub fn declaration_of(file: &HintContext<'_>, name: &str) -> Option<String> {
     let find = |variables: &[Variable], qualifier| {
         variables.iter().find(|variable| variable.name == name).map(|variable| line(qualifier, variable))
     };
-    find(&interface.inputs, "in")
-        .or_else(|| find(&interface.uniforms, "uniform"))
-        .or_else(|| (interface.output.name == name).then(|| line("out", &interface.output)))
+    let first = find(&interface.inputs, "in").or_else(|| find(&interface.uniforms, "uniform"));
+    first.or_else(|| find(&interface.outputs, "out"))
 }
 
 pub fn of_interface(file: &HintContext<'_>, name: &str) -> Option<Text> {
@@ -143,10 +142,11 @@ pub fn from_elsewhere(file: &HintContext<'_>, name: &str) -> Option<Text> {
         ),
         Instead::Nothing => Text::new(format!("{}.", from.en), format!("{}。", from.ja)),
         Instead::Interface if origin == Origin::Fragment => {
-            let output = &file.interface.output.name;
+            let outputs: Vec<_> = file.interface.outputs.iter().map(|output| format!("`{}`", output.name)).collect();
+            let output = outputs.join(", ");
             Text::new(
-                format!("{}. This vertex shader hands its result on in `{output}`.", from.en),
-                format!("{}。このバーテックスシェーダの出力変数は `{output}` です。", from.ja),
+                format!("{}. This vertex shader hands its result on in {output}.", from.en),
+                format!("{}。このバーテックスシェーダの出力変数は {output} です。", from.ja),
             )
         }
         Instead::Interface => {

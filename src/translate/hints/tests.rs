@@ -47,9 +47,10 @@ void main()
 pub fn interface() -> LinkedInterface {
     let variable = |name: &str, ty: &str| Variable { name: name.to_owned(), ty: ty.to_owned() };
     LinkedInterface {
+        stage: Stage::Vertex,
         inputs: vec![variable("position", "vec4"), variable("nv", "vec4")],
         uniforms: vec![variable("mv", "mat4"), variable("mvp", "mat4")],
-        output: variable("colour", "vec4"),
+        outputs: vec![variable("colour", "vec4")],
         constants: ["lightPosition", "lightAmbient", "shine"].map(str::to_owned).to_vec(),
         version: "#version 410 core".to_owned(),
         alike: None,
@@ -65,11 +66,14 @@ fn outcome(text: &str, interface: &LinkedInterface) -> CompilerOutput {
 
 /// Everything that is said about `text`.
 fn diagnostics(text: &str) -> Vec<Diagnostic> {
-    let interface = interface();
-    let outcome = outcome(text, &interface);
-    let mut all = stage_diagnostics(outcome.log(Stage::Vertex), text, None, &interface);
-    all.extend(link_diagnostics(&outcome.link_log, text, &interface));
-    all.extend(overlooked_errors(text, &interface));
+    diagnostics_of(text, &interface())
+}
+
+fn diagnostics_of(text: &str, interface: &LinkedInterface) -> Vec<Diagnostic> {
+    let outcome = outcome(text, interface);
+    let mut all = stage_diagnostics(outcome.log(Stage::Vertex), text, None, interface);
+    all.extend(link_diagnostics(&outcome.link_log, text, interface));
+    all.extend(overlooked_errors(text, interface));
     all
 }
 

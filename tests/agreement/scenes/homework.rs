@@ -52,9 +52,10 @@ impl Homework {
         let first = &self.draws[0];
         let sampler = |(name, _): &(&str, Texels)| Variable { name: (*name).into(), ty: "sampler2D".into() };
         LinkedInterface {
+            stage: Stage::Vertex,
             inputs: first.attributes.iter().map(variable).collect(),
             uniforms: first.uniforms.iter().map(variable).chain(self.textures.iter().map(sampler)).collect(),
-            output: Variable { name: "colour".into(), ty: "vec4".into() },
+            outputs: vec![Variable { name: "colour".into(), ty: "vec4".into() }],
             constants: Vec::new(),
             version: "#version 410 core".to_owned(),
             alike: None,

@@ -1,7 +1,8 @@
 //! What the linker refuses, and what it should.
 
-use super::{HintCase, RIGHT, broken, check, diagnostics};
+use super::{HintCase, RIGHT, broken, check, diagnostics, diagnostics_of, interface};
 use crate::diagnostic::DiagnosticStage;
+use crate::translate::{LinkedInterface, Variable};
 
 const CASES: &[HintCase] = &[
     ("out vec4 colour", "vec4 §colour", "not declared as an output", "出力変数 (`out`)"),
@@ -41,6 +42,33 @@ fn an_output_of_another_type_is_found() {
         let all = diagnostics(&text);
         assert_eq!((all[0].stage, all[0].line), (DiagnosticStage::Link, Some(12)), "{ty}");
         assert!(all[0].message.en.contains(ty), "{}", all[0].message.en);
+    }
+}
+
+#[test]
+fn each_output_is_held_against_the_input_of_its_name() {
+    let two = LinkedInterface {
+        outputs: ["colour", "foam"].map(|name| Variable { name: name.into(), ty: "vec4".into() }).to_vec(),
+        fragment: c"#version 410 core\nin vec4 colour, foam;\nout vec4 c;\nvoid main() { c = colour + foam; }\n"
+            .to_owned(),
+        ..interface()
+    };
+    let said = |declaration: &str, value: &str| {
+        let text = RIGHT.replace("out vec4 colour;", &format!("out vec4 colour;\n{declaration}"));
+        let text = text.replace("  colour =", &format!("  {value}\n  colour ="));
+        let first = diagnostics_of(&text, &two).into_iter().next().map(|first| (first.line, first.message.en));
+        first.unwrap_or_default()
+    };
+    assert_eq!(said("out vec4 foam;", "foam = vec4(1.0);").0, None);
+    for (declaration, value, about) in [
+        ("out vec2 foam;", "foam = vec2(1.0);", "has type vec2"),
+        ("flat out vec4 foam;", "foam = vec4(1.0);", "differ in `flat`"),
+        ("out vec4 foams;", "foams = vec4(1.0);", "reads `foam`, but this output is called `foams`"),
+        ("vec4 foam;", "foam = vec4(1.0);", "`foam` is not declared as an output"),
+    ] {
+        let (line, message) = said(declaration, value);
+        assert_eq!(line, Some(13), "{declaration}: {message}");
+        assert!(message.contains(about), "{declaration}: {message}");
     }
 }
 
