@@ -39,8 +39,10 @@ impl Device {
         let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
             label: Some("ggrade"),
             required_features: wgpu::Features::VERTEX_WRITABLE_STORAGE | (adapter.features() & wanted),
-            // A fragment stage may have several outputs of four floats.
+            // A fragment stage may have several outputs of four floats, and as many inputs as the driver takes.
             required_limits: wgpu::Limits {
+                max_vertex_attributes: adapter.limits().max_vertex_attributes,
+                max_inter_stage_shader_variables: adapter.limits().max_inter_stage_shader_variables,
                 max_color_attachment_bytes_per_sample: adapter.limits().max_color_attachment_bytes_per_sample,
                 ..wgpu::Limits::default()
             },

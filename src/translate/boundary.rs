@@ -13,6 +13,9 @@ use crate::source::Source;
 /// From this version on the fragment stage's qualifiers count, and the vertex stage's do not matter.
 const FREE_INTERPOLATION: i32 = 440;
 
+/// So many numbers go from stage to stage on drivers, Mesa's among them.
+const MOST_COMPONENTS: usize = 128;
+
 /// Holds the inputs of the fragment stage against the outputs of the vertex stage, at GLSL version `version`.
 pub(super) fn check(
     vertex: &Shader,
@@ -22,9 +25,24 @@ pub(super) fn check(
 ) -> Result<(), TranslationRefusal> {
     let mut errors: Vec<Diagnostic> =
         fragment.inputs.iter().filter_map(|input| error(input, &vertex.outputs, source, version)).collect();
+    errors.extend(too_many(fragment, source));
     // Columns and elements of one variable stand in one place, and are wrong together.
     errors.dedup_by_key(|error| (error.line, error.column));
     if errors.is_empty() { Ok(()) } else { Err(TranslationRefusal::Rejected(errors)) }
+}
+
+/// More than drivers hand over.
+fn too_many(fragment: &Shader, source: &Source) -> Option<Diagnostic> {
+    let mut components = 0;
+    let first = fragment.inputs.iter().find(|input| {
+        components += usize::from(input.size) * usize::from(input.width) / 4;
+        components > MOST_COMPONENTS
+    })?;
+    let message = Text::new(
+        format!("More than {MOST_COMPONENTS} numbers go to the fragment shader; drivers refuse to link that."),
+        format!("フラグメントシェーダに渡る値が {MOST_COMPONENTS} 個を超えています。ドライバはリンクを拒否します。"),
+    );
+    Some(place(Diagnostic::error(DiagnosticStage::Link, message), source, &first.name))
 }
 
 fn error(input: &StageVariable, outputs: &[StageVariable], source: &Source, version: i32) -> Option<Diagnostic> {
