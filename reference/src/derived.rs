@@ -99,6 +99,10 @@ impl Derived {
         if form.is_none() {
             return self.program_touches(found, line);
         }
+        let about = self.lines_about(found);
+        if !(about.is_empty() || assignment.judges_position(line)) {
+            return about.contains(&line.id.as_str());
+        }
         let touched = |changes: fn(&Self, &FoundMistake, &RubricLine) -> bool| {
             let is_touched = |line: &RubricLine| changes(self, found, line);
             assignment.rubric.iter().any(is_touched).then(|| is_touched(line))

@@ -2,6 +2,7 @@
 
 use crate::Assignment;
 use crate::accepted::{AcceptedAnswer, Computed};
+use crate::equation::Reads;
 use crate::interpreter::Stage;
 use crate::mistake::MistakeForm;
 use crate::probes::ProbeSet;
@@ -32,6 +33,20 @@ impl Assignment {
             Some(Some(Feature::Program(program))) => program.replaced.len() == 1,
             _ => true,
         }
+    }
+
+    /// Whether what lines judge is known by the solution without it, and not by definitions.
+    pub fn is_told_by_features(&self) -> bool {
+        self.equation.reads() == Reads::Outputs || self.has_features_alone()
+    }
+
+    /// Whether what lines judge is said by what the solution lacks without it. Where a region shows a definition by itself, its values
+    /// tell more.
+    pub(crate) fn has_features_alone(&self) -> bool {
+        let colour = &self.equation.definitions[self.equation.colour].name;
+        let lines = || self.rubric.iter().zip(&self.features).filter(|(line, _)| !self.judges_position(line));
+        lines().any(|(_, feature)| matches!(feature, Some(Feature::Program(_))))
+            && lines().all(|(line, feature)| feature.is_some() || line.judges == *colour)
     }
 
     /// The solution with something in the place of a text that stands in it, and the site of that.

@@ -262,8 +262,8 @@ pub struct RubricLine {
     /// Of a program of which numbers are read: those that it judges, as the homework's shader calls them.
     #[serde(default)]
     pub numbers: Vec<String>,
-    /// Of a solution that is no list of definitions: the variables that the line is about. What is wrong in one of them costs the lines
-    /// that are about it, and no other.
+    /// The variables and functions of the solution that the line is about, where `without` does not tell. What is wrong in one of them
+    /// costs the lines that are about it, and no other.
     #[serde(default)]
     pub variables: Vec<String>,
     /// What is said where it is right: `{frames}` and `{probes}` are how many there are.

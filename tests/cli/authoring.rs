@@ -149,7 +149,7 @@ fn reflections_in_a_room_become_a_homework() {
     written.tells("pow(1.0 - max(dot(n, v), 0.0), 5.0)", "pow(1.0 - max(dot(n, v), 0.0), 4.0)");
     // A change that another one writes over is no mistake of the student's.
     let constant = written.graded(&[("mix(vec3(0.04), baseColor, metalness)", "vec3(0.04)")]);
-    assert_eq!(constant["mistakes"], serde_json::json!(["derived-other-value-result"]), "{constant:#}");
+    assert_eq!(constant["mistakes"], serde_json::json!(["derived-other-value-f0"]), "{constant:#}");
 }
 
 #[test]

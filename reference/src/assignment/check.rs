@@ -1,5 +1,6 @@
 //! From the manifest to an assignment: every name is resolved, every expression typed, every number in range.
 
+mod about;
 mod advice;
 mod answers;
 mod constants;
@@ -118,6 +119,7 @@ pub(super) fn assignment(
         probing,
         derived: Arc::default(),
     };
+    about::complete(&mut assignment);
     probing::lobe_is_known(&assignment)?;
     answers::are_defined(&assignment)?;
     assignment.probing.takes_backs = assignment.shows_backs();

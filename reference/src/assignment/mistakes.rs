@@ -35,7 +35,7 @@ impl Assignment {
     }
 
     /// The lines of the rubric that are about a variable of the solution; none where no line says so.
-    pub fn lines_about<'a>(&'a self, variable: &'a str) -> impl Iterator<Item = &'a RubricLine> {
+    pub fn lines_about<'a>(&'a self, variable: &str) -> impl Iterator<Item = &'a RubricLine> {
         self.rubric.iter().filter(move |line| line.variables.iter().any(|own| own == variable))
     }
 

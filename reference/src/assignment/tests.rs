@@ -3,6 +3,7 @@ use crate::built_in::{assignment, assignments, names};
 use crate::mistake::FoundMistake;
 use std::path::Path;
 
+mod about;
 mod meshes;
 mod passes;
 mod refusals;

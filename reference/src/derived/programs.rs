@@ -6,7 +6,7 @@ use crate::accepted::{AcceptedAnswer, Computed};
 use crate::assignment::RubricLine;
 use crate::equation::Reads;
 use crate::fit::{Alternatives, Footprints, TOLERANCE, channel_agrees};
-use crate::interpreter::{Operator, ProgramSlip, Stage, program_slips};
+use crate::interpreter::{Operator, ProgramSlip, Stage, outline, program_slips};
 use crate::mistake::{Condition, FoundMistake, Mistake};
 use crate::probes::ProbeSet;
 use std::collections::BTreeMap;
@@ -28,10 +28,14 @@ pub(super) fn mistakes(assignment: &Assignment) -> Vec<Mistake> {
     let mut grouped: BTreeMap<(Operator, String), Vec<(ProgramSlip, AcceptedAnswer)>> = BTreeMap::new();
     for file in &assignment.files {
         let is_part = |name: &str| assignment.equation.reads() == Reads::Outputs || name != "main";
+        let own = outline::functions(&file.solution.text);
+        let returns = |name: &str| own.iter().any(|function| function.name.text == name);
         let slips = program_slips(&file.solution.text, Stage::from(file.stage), &is_part).unwrap_or_default();
         for slip in slips {
             let Some(answer) = assignment.linked_with(file, slip.program.clone(), &slip.text) else { continue };
-            let name = slip.name.clone().unwrap_or_else(|| RESULT.into());
+            // What a function returns has a name where it is known what it is for.
+            let is_told = |name: &&String| !returns(name) || assignment.lines_about(name).next().is_some();
+            let name = slip.name.as_ref().filter(is_told).cloned().unwrap_or_else(|| RESULT.into());
             grouped.entry((slip.operator, name)).or_default().push((slip, answer));
         }
     }
@@ -93,12 +97,9 @@ impl Derived {
         Some(self.assignment.computed_by(program, probes))
     }
 
-    /// Whether a line is touched by a program: it is not where what it judges shows by itself, and is right there.
+    /// Whether a line is touched by a program: it is about what is given a value there, and is not where what it judges shows by
+    /// itself, and is right there.
     pub(super) fn program_touches(&self, found: &FoundMistake, line: &RubricLine) -> bool {
-        let mut about = definition(&found.id).into_iter().flat_map(|name| self.assignment.lines_about(name)).peekable();
-        if about.peek().is_some() && !self.assignment.judges_position(line) {
-            return about.any(|own| own.id == line.id);
-        }
         let probes = self.judging.get_or_init(|| self.assignment.judging_probes());
         let Some(shown) = self.shown(found, probes) else { return true };
         let pairs = || probes.iter().zip(&shown);
@@ -110,8 +111,11 @@ impl Derived {
         };
         let alternatives = Alternatives::new(&self.assignment, probes);
         let judged = Footprints::of(&alternatives, TOLERANCE).judged(&is_right);
+        let about = self.lines_about(found);
         let rubric = self.assignment.rubric.iter().enumerate();
-        let mut colours = rubric.filter(|(_, line)| !self.assignment.judges_position(line));
+        let mut colours = rubric.filter(|(_, own)| {
+            !self.assignment.judges_position(own) && (about.is_empty() || about.contains(&own.id.as_str()))
+        });
         let is_touched = |number: usize| {
             let own = judged.iter().find(|judged| judged.line == number);
             own.is_none_or(|judged| !judged.is_right)
@@ -119,5 +123,11 @@ impl Derived {
         // Where every line is right by itself, it is what they have in common.
         let is_any = colours.clone().any(|(number, _)| is_touched(number));
         colours.any(|(number, own)| own.id == line.id && (!is_any || is_touched(number)))
+    }
+
+    /// The lines of the colour that are about what a mistake is in.
+    pub(super) fn lines_about(&self, found: &FoundMistake) -> Vec<&str> {
+        let about = definition(&found.id).into_iter().flat_map(|name| self.assignment.lines_about(name));
+        about.filter(|line| !self.assignment.judges_position(line)).map(|line| line.id.as_str()).collect()
     }
 }

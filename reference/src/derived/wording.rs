@@ -22,7 +22,7 @@ pub(super) fn mistake(
     });
     let equation = &assignment.equation;
     let moves = equation.position.is_some_and(|position| equation.depends(position, definition));
-    let mut mistake = Mistake { instead: instead.collect(), ..blank(assignment, said, name, quantity.seen()) };
+    let mut mistake = Mistake { instead: instead.collect(), ..blank(assignment, said, name, &quantity) };
     mistake.keeps.retain(|(id, _)| {
         let mut lines = assignment.rubric.iter();
         moves || !lines.any(|line| line.id == *id && assignment.judges_position(line))
@@ -40,7 +40,7 @@ pub(super) fn of_program(assignment: &Assignment, operator: Operator, name: &str
     };
     let instead = slips.iter().enumerate();
     let instead = instead.map(|(form, slip)| alternative(form, said, &quantity, &part, slip.is_bound_by_zero));
-    Mistake { instead: instead.collect(), ..blank(assignment, said, name, quantity.seen()) }
+    Mistake { instead: instead.collect(), ..blank(assignment, said, name, &quantity) }
 }
 
 /// What is said of a mistake that is known by what makes it right: the operator, and the definition that it is in, where it is one.
@@ -57,7 +57,7 @@ pub(super) fn of_repair(
     };
     let said = operator_of(operator);
     let only = alternative(0, said, &quantity, &quantity.named, is_bound_by_zero);
-    let mistake = blank(assignment, said, name, quantity.seen());
+    let mistake = blank(assignment, said, name, &quantity);
     let [equation, look] = [only.equation.unwrap_or_default(), only.look.unwrap_or_default()];
     Mistake { equation, look, ..mistake }
 }
@@ -81,11 +81,18 @@ fn alternative(
     }
 }
 
-fn blank(assignment: &Assignment, said: &OperatorText, name: &str, seen: Text) -> Mistake {
+fn blank(assignment: &Assignment, said: &OperatorText, name: &str, quantity: &DefinitionName) -> Mistake {
     let keeps = assignment.rubric.iter().map(|line| (line.id.clone(), said.keeps));
     Mistake {
         id: format!("{PREFIX}{}-{name}", said.id),
-        title: Text { en: format!("{} ({name})", said.title.en), ja: format!("{} ({name})", said.title.ja) },
+        // The solution's own names say nothing to a student.
+        title: quantity.called.as_ref().map_or_else(
+            || said.title.clone(),
+            |called| Text {
+                en: format!("{} ({})", said.title.en, called.en),
+                ja: format!("{} ({})", said.title.ja, called.ja),
+            },
+        ),
         keeps: keeps.collect(),
         forms: Vec::new(),
         variants: Vec::new(),
@@ -95,7 +102,7 @@ fn blank(assignment: &Assignment, said: &OperatorText, name: &str, seen: Text) -
         at_use: false,
         needs: Vec::new(),
         lacks: Vec::new(),
-        seen,
+        seen: quantity.seen(),
         equation: said.equation.clone(),
         look: said.look.clone(),
         instead: Vec::new(),
@@ -108,6 +115,8 @@ struct DefinitionName {
     plain: Text,
     /// With it.
     named: Text,
+    /// By itself, in few words.
+    called: Option<Text>,
     /// Whether it is called anything.
     is_known: bool,
     /// Whether it is all that is computed.
@@ -127,9 +136,12 @@ impl DefinitionName {
             ja: format!("{}⟨ ({{{}}}) ⟩", plain.ja.trim_end(), own.name),
         };
         let named = if own.means.is_none() && own.symbol.is_some() { plain.clone() } else { named };
+        let symbol = own.symbol.as_ref().map(|symbol| Text { en: symbol.clone(), ja: symbol.clone() });
+        let line = || line_of(assignment, definition).map(|line| line.label.clone());
         Self {
             plain,
             named,
+            called: symbol.or_else(|| own.means.clone()).or_else(line),
             is_known: own.means.is_some() || own.symbol.is_some() || is_judged(assignment, definition),
             is_everything: false,
         }
@@ -149,7 +161,8 @@ impl DefinitionName {
             en: format!("{}⟨ (here `{{name}}`)⟩", plain.en),
             ja: format!("{}⟨（ここでは `{{name}}`）⟩", plain.ja),
         };
-        Self { named, plain, is_known: true, is_everything: only.is_none() }
+        let called = only.map(|line| line.label.clone());
+        Self { named, plain, called, is_known: true, is_everything: only.is_none() }
     }
 
     fn seen(&self) -> Text {
@@ -179,18 +192,34 @@ impl DefinitionName {
 /// What a definition without a name of the lecture's is part of.
 fn of_line(assignment: &Assignment, definition: usize) -> Text {
     let equation = &assignment.equation;
-    let judged = |line: &&RubricLine| equation.index(&line.judges);
-    let mut lines = assignment.rubric.iter();
-    if let Some(line) = lines.clone().find(|line| judged(line) == Some(definition)) {
+    if let Some(line) = line_of(assignment, definition) {
         return part_called(line);
     }
-    if let Some(line) = lines.find(|line| judged(line).is_some_and(|judged| equation.depends(judged, definition))) {
+    let judged = |line: &&RubricLine| equation.index(&line.judges);
+    let mut lines = assignment.rubric.iter();
+    // One line of several does not stand for the whole colour.
+    let is_only = assignment.rubric.iter().filter(|line| !assignment.judges_position(line)).count() == 1;
+    let is_of_term = |line: &&RubricLine| {
+        let is_part = |judged| is_only || judged != equation.colour;
+        judged(line).is_some_and(|judged| is_part(judged) && equation.depends(judged, definition))
+    };
+    if let Some(line) = lines.find(is_of_term) {
         return Text {
             en: format!("a value of the part “{}”", line.label.en),
             ja: format!("{}に使う値", quoted(&line.label.ja)),
         };
     }
     Text { en: "the colour".into(), ja: "色".into() }
+}
+
+/// The only line that judges a definition, or that is about it.
+fn line_of(assignment: &Assignment, definition: usize) -> Option<&RubricLine> {
+    fn only<'a>(mut lines: impl Iterator<Item = &'a RubricLine>) -> Option<&'a RubricLine> {
+        lines.next().filter(|_| lines.next().is_none())
+    }
+    let equation = &assignment.equation;
+    let judging = assignment.rubric.iter().filter(|line| equation.index(&line.judges) == Some(definition));
+    only(judging).or_else(|| only(assignment.lines_about(&equation.definitions[definition].name)))
 }
 
 fn part_called(line: &RubricLine) -> Text {

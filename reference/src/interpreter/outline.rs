@@ -25,6 +25,8 @@ pub struct StatementText {
     pub words: Vec<Word>,
     /// How many pairs of braces it stands in, those of its function not counted.
     pub depth: usize,
+    /// The words of what decides that it is done: `if (…`, `for (…`.
+    pub under: Vec<Word>,
 }
 
 impl StatementText {
@@ -134,24 +136,39 @@ fn function(words: &[Word], open: usize, close: usize) -> Option<FunctionText> {
 }
 
 fn statements(words: &[Word]) -> Vec<StatementText> {
-    let (mut statements, mut own, mut depth, mut brackets) = (Vec::new(), Vec::new(), 0_usize, 0_usize);
+    let (mut statements, mut own, mut brackets) = (Vec::new(), Vec::new(), 0_usize);
+    // Where the heads of the blocks around begin, and those of the statement that comes next.
+    let (mut blocks, mut heads, mut ended): (Vec<usize>, Vec<Vec<Word>>, Vec<Vec<Word>>) = Default::default();
     for word in words {
         match word.text.as_str() {
             "(" => brackets += 1,
             ")" => brackets = brackets.saturating_sub(1),
             _ => {}
         }
+        let outer = |blocks: &[usize]| blocks.last().copied().unwrap_or(0);
         match word.text.as_str() {
-            "{" | "}" => {
-                depth = if word.text == "{" { depth + 1 } else { depth.saturating_sub(1) };
+            "{" => {
                 own.clear();
+                blocks.push(heads.len());
+            }
+            "}" => {
+                own.clear();
+                blocks.pop();
+                ended = heads.split_off(outer(&blocks));
             }
             // What stands behind `if (…)` without braces is a statement of its own.
-            ")" if brackets == 0 && is_head(&own) => own.clear(),
-            "else" | "do" if brackets == 0 => own.clear(),
+            ")" if brackets == 0 && is_head(&own) => heads.push(std::mem::take(&mut own)),
+            // What decides about one branch decides about the other.
+            "else" if brackets == 0 => {
+                own.clear();
+                heads.append(&mut ended);
+            }
+            "do" if brackets == 0 => own.clear(),
             ";" if brackets == 0 => {
                 own.push(word.clone());
-                statements.push(StatementText { words: std::mem::take(&mut own), depth });
+                let under = heads.concat();
+                statements.push(StatementText { words: std::mem::take(&mut own), depth: blocks.len(), under });
+                ended = heads.split_off(outer(&blocks));
             }
             _ => own.push(word.clone()),
         }
@@ -179,10 +196,24 @@ mod tests {
         assert_eq!(&TEXT[found[0].body.clone()], " return p.x; ");
         let texts: Vec<_> = found[1].statements.iter().map(|statement| &TEXT[statement.range()]).collect();
         assert_eq!(texts, ["float a = 1.0;", "a += f(vec2(a));", "discard;"]);
+        let under: Vec<String> = found[1].statements.iter().map(|statement| joined(&statement.under)).collect();
+        assert_eq!(under, ["", "for ( int i = 0 ; i < 3 ; i ++", "if ( a > 2.0"]);
         let depths: Vec<_> = found[1].statements.iter().map(|statement| statement.depth).collect();
         assert_eq!(depths, [0, 0, 1]);
         let assigned = found[1].statements[1].assignment().map(|at| found[1].statements[1].words[at].text.as_str());
         assert_eq!(assigned, Some("+="));
+    }
+
+    fn joined(words: &[Word]) -> String {
+        words.iter().map(|word| word.text.as_str()).collect::<Vec<_>>().join(" ")
+    }
+
+    #[test]
+    fn both_branches_are_under_their_condition() {
+        let text = "void main() { if (a) { b; if (c) d; else e; f; } else if (g) h; else { i; } j; }";
+        let under: Vec<String> = functions(text)[0].statements.iter().map(|own| joined(&own.under)).collect();
+        let expected = ["if ( a", "if ( a if ( c", "if ( a if ( c", "if ( a", "if ( a if ( g", "if ( a if ( g", ""];
+        assert_eq!(under, expected);
     }
 
     #[test]

@@ -4,7 +4,7 @@ use super::{Cause, PART_MISSING, PART_SCALED, UNEXPLAINED};
 use crate::diagnose::inside::Repaired;
 use crate::diagnose::{CONSTANTS_CHANGED, POSITION_CHANGED};
 use reference::Assignment;
-use reference::assignment::RubricLine;
+use reference::assignment::{RubricLine, Stage};
 use reference::derived::{definition, is_derived};
 use reference::fit::{FeatureDefect, FeatureExplanation, TermJudgement};
 
@@ -49,14 +49,24 @@ pub fn kept(assignment: &Assignment, line: &RubricLine, shape: bool, cause: &Cau
 /// The lines that a repaired mistake costs points: those that are about the variable that it is in; else those of which it spoils what
 /// they judge, but for terms that are right by themselves. Where it spoils none of these, such as a sum, all that are not right.
 pub(super) fn charged(assignment: &Assignment, terms: &[TermJudgement], repaired: &Repaired) -> Vec<String> {
-    let about = definition(&repaired.mistake.id).into_iter().flat_map(|name| assignment.lines_about(name));
-    let about: Vec<String> = about.map(|line| line.id.clone()).collect();
-    if !about.is_empty() {
-        return about;
-    }
     let is_wrong = |line: &&RubricLine| terms.iter().any(|term| term.line == line.id && !term.is_right());
-    let is_spoilt = |line: &&RubricLine| repaired.touches.contains(&line.judges);
     let is_colour = |line: &&RubricLine| !assignment.judges_position(line);
+    // What a fixed stage reads has its name, whatever stands for it in a right answer.
+    let is_read = |name: &&str| {
+        assignment.fixed.iter().any(|fixed| fixed.stage == Stage::Fragment)
+            && assignment.interface.outputs.iter().any(|output| output.name == **name)
+    };
+    let output = repaired.located.name.as_deref().filter(is_read);
+    let name = output.or(definition(&repaired.mistake.id));
+    let about = name.into_iter().flat_map(|name| assignment.lines_about(name));
+    // Where all stands is seen by itself.
+    let about: Vec<&RubricLine> = about.filter(is_colour).collect();
+    if !about.is_empty() {
+        let wrong: Vec<&RubricLine> = about.iter().copied().filter(is_wrong).collect();
+        let charged = if wrong.is_empty() { about } else { wrong };
+        return charged.into_iter().map(|line| line.id.clone()).collect();
+    }
+    let is_spoilt = |line: &&RubricLine| repaired.touches.contains(&line.judges);
     let lines = || assignment.rubric.iter().filter(is_colour);
     let choices: [Vec<&RubricLine>; 3] = [
         lines().filter(|line| is_wrong(line) && is_spoilt(line)).collect(),

@@ -11,7 +11,7 @@ use std::collections::HashSet;
 pub struct ProgramSlip {
     /// Of which kind it is.
     pub operator: Operator,
-    /// The variable that is given a value there.
+    /// The variable that is given a value there, or the function that returns one.
     pub name: Option<String>,
     /// Whether it is a bound of 0 that is concerned.
     pub is_bound_by_zero: bool,

@@ -111,7 +111,7 @@ pub struct TreeWalk<'w> {
 /// What an expression is where a walk meets it.
 #[derive(Clone, Copy, Debug)]
 pub enum MetAs<'n> {
-    /// A value, and the variable that is given it.
+    /// A value, and the variable that is given it, or the function that returns it.
     Value(Option<&'n Name>),
     /// What a loop goes on by.
     Bound,
@@ -154,7 +154,7 @@ pub(super) fn last_line(statement: &Statement) -> u32 {
             of_expressions = of_expressions.max(lines.unwrap_or(0));
         },
     };
-    of_statement(&mut statement.clone(), &mut all, &mut Vec::new());
+    of_statement(&mut statement.clone(), None, &mut all, &mut Vec::new());
     of_expressions.max(of_statements)
 }
 
@@ -164,10 +164,18 @@ fn of_function(function: &mut Function, walk: &mut TreeWalk<'_>, names: &mut Vec
             names.push((Name::clone(&parameter.name), Name::clone(kind)));
         }
     }
-    function.body.iter_mut().flatten().for_each(|statement| of_statement(statement, walk, names));
+    let result = Some(&function.name).filter(|name| ***name != *"main");
+    let body = function.body.iter_mut().flatten();
+    body.for_each(|statement| of_statement(statement, result, walk, names));
 }
 
-fn of_statement(statement: &mut Statement, walk: &mut TreeWalk<'_>, names: &mut Vec<(Name, Name)>) {
+/// `result`: the function whose statement it is, unless that is `main`.
+fn of_statement(
+    statement: &mut Statement,
+    result: Option<&Name>,
+    walk: &mut TreeWalk<'_>,
+    names: &mut Vec<(Name, Name)>,
+) {
     (walk.statement)(statement, names);
     let known = names.len();
     match &mut statement.kind {
@@ -180,29 +188,29 @@ fn of_statement(statement: &mut Statement, walk: &mut TreeWalk<'_>, names: &mut 
             return;
         }
         StatementKind::Block(all) | StatementKind::Switch(_, all) => {
-            all.iter_mut().for_each(|statement| of_statement(statement, walk, names));
+            all.iter_mut().for_each(|statement| of_statement(statement, result, walk, names));
         }
         StatementKind::If(condition, yes, no) => {
             (walk.expression)(condition, MetAs::Value(None), names);
-            of_statement(yes, walk, names);
+            of_statement(yes, result, walk, names);
             if let Some(no) = no {
-                of_statement(no, walk, names);
+                of_statement(no, result, walk, names);
             }
         }
         StatementKind::Loop(first, condition, _, body) => {
             if let Some(first) = first {
-                of_statement(first, walk, names);
+                of_statement(first, result, walk, names);
             }
             if let Some(LoopCondition::Expression(condition)) = condition {
                 (walk.expression)(condition, MetAs::Bound, names);
             }
-            of_statement(body, walk, names);
+            of_statement(body, result, walk, names);
         }
         StatementKind::DoWhile(body, condition) => {
-            of_statement(body, walk, names);
+            of_statement(body, result, walk, names);
             (walk.expression)(condition, MetAs::Bound, names);
         }
-        StatementKind::Return(Some(value)) => (walk.expression)(value, MetAs::Value(None), names),
+        StatementKind::Return(Some(value)) => (walk.expression)(value, MetAs::Value(result), names),
         _ => {}
     }
     names.truncate(known);

@@ -1,0 +1,145 @@
+//! Which variables and functions of the solution a line of the rubric is about, where the line says what the solution lacks without it.
+//!
+//! What a text is replaced by in the solution without a feature tells what belongs to the feature: the names that are gone, what they
+//! are computed from, and what is given the value that is another one.
+
+mod flow;
+
+use crate::Assignment;
+use crate::feature::Feature;
+use crate::interpreter::outline::{Word, words};
+use flow::{Flow, Node, OwnFunction, given, names};
+use std::collections::BTreeSet;
+
+/// What belongs to a line.
+#[derive(Debug, Default)]
+struct Belongs {
+    /// What is not read any more, without the feature, where it is used.
+    gone: BTreeSet<Node>,
+    /// What is given the value that is another one without it.
+    given: BTreeSet<Node>,
+    /// Those that are given other values as well, or of whose value that is a part.
+    parts: BTreeSet<Node>,
+}
+
+/// Completes the lines of the rubric by what they are about; of what the folder says so of some line, that holds.
+pub(super) fn complete(assignment: &mut Assignment) {
+    let lines: Vec<usize> =
+        (0..assignment.rubric.len()).filter(|at| !assignment.judges_position(&assignment.rubric[*at])).collect();
+    if lines.len() < 2 || !assignment.has_features_alone() {
+        return;
+    }
+    let flow = Flow::of(&assignment.files);
+    let belongs = lines.iter().map(|at| match &assignment.features[*at] {
+        Some(Feature::Program(program)) => belongs(&flow, &program.replaced),
+        Some(Feature::Term(_)) => {
+            let judged = BTreeSet::from([flow.seen_in_main(&assignment.rubric[*at].judges)]);
+            Some(Belongs { gone: judged, ..Belongs::default() })
+        }
+        None => Some(Belongs::default()),
+    });
+    let Some(belongs) = belongs.collect::<Option<Vec<Belongs>>>() else { return };
+    let has_rest = lines.iter().any(|at| assignment.features[*at].is_none());
+    let colour = assignment.equation.definitions[assignment.equation.colour].name.clone();
+    let lines_of = Lines { rest: rest(&flow, &belongs, &colour), flow, belongs, has_rest };
+    let said = lines.iter().flat_map(|at| assignment.rubric[*at].variables.iter().cloned());
+    let said: BTreeSet<String> = said.collect();
+    for (own, at) in lines.into_iter().enumerate() {
+        let about = match &assignment.features[at] {
+            Some(_) => lines_of.about(own),
+            None => lines_of.rest.clone(),
+        };
+        let more = lines_of.named(about).into_iter().filter(|name| !said.contains(name));
+        assignment.rubric[at].variables.extend(more);
+    }
+}
+
+/// What belongs to a feature without which these texts are replaced; none where that is not within a function.
+fn belongs(flow: &Flow<'_>, replaced: &[[String; 2]]) -> Option<Belongs> {
+    let mut belongs = Belongs::default();
+    for [value, instead] in replaced {
+        let start = |own: &OwnFunction<'_>| own.file.find(value.as_str()).filter(|at| own.text.body.contains(at));
+        let function = flow.functions.iter().position(|own| start(own).is_some())?;
+        let own = &flow.functions[function];
+        let start = start(own)?;
+        let is_replaced = |word: &Word| word.range.start < start + value.len() && start < word.range.end;
+        let mut gone = words(value);
+        for statement in &own.text.statements {
+            let is_decided_by_it = statement.under.iter().any(is_replaced);
+            if is_decided_by_it {
+                gone.extend(statement.under.iter().cloned());
+            }
+            for giving in given(statement) {
+                let node = flow.given_by(function, &giving);
+                if is_decided_by_it || giving.from.iter().any(is_replaced) {
+                    belongs.given.insert(node.clone());
+                }
+                if !giving.from.iter().all(is_replaced) {
+                    belongs.parts.insert(node);
+                }
+            }
+        }
+        let left = words(instead);
+        let left: BTreeSet<&str> = names(&left).collect();
+        belongs.gone.extend(names(&gone).filter(|name| !left.contains(name)).map(|name| flow.seen_in(function, name)));
+    }
+    let is_own = |node: &Node| flow.is_computed(node) && !belongs.given.contains(node);
+    belongs.gone.retain(is_own);
+    Some(belongs)
+}
+
+/// What the colour is made of without all features.
+fn rest(flow: &Flow<'_>, all: &[Belongs], colour: &str) -> BTreeSet<Node> {
+    let is_cut = |to: &Node, from: &Node| all.iter().any(|own| own.given.contains(to) && own.gone.contains(from));
+    flow.made_of(&BTreeSet::from([flow.seen_in_main(colour)]), &is_cut)
+}
+
+/// The lines of a rubric that judge the colour.
+struct Lines<'t> {
+    flow: Flow<'t>,
+    belongs: Vec<Belongs>,
+    /// What the colour is made of without all features.
+    rest: BTreeSet<Node>,
+    /// Whether a line judges that.
+    has_rest: bool,
+}
+
+impl Lines<'_> {
+    /// What a line with a feature is about.
+    fn about(&self, line: usize) -> BTreeSet<Node> {
+        let Belongs { gone, given, .. } = &self.belongs[line];
+        let mut about = self.flow.made_of(gone, &|_, _| false);
+        // What goes into the colour in other ways as well is nobody's own.
+        about.retain(|node| self.has_rest || !self.rest.contains(node));
+        let own = self.flow.computed().filter(|node| self.combines(node, line) || self.hands_on(node, line));
+        about.extend(own.cloned());
+        about.extend(given.iter().cloned());
+        about
+    }
+
+    /// Whether a feature goes by the value that another one changes in a part.
+    fn combines(&self, node: &Node, line: usize) -> bool {
+        let is_part = |own: &Belongs| own.given.contains(node) && own.parts.contains(node);
+        self.belongs.iter().any(is_part) && !self.from(node).is_disjoint(&self.belongs[line].given)
+    }
+
+    /// Whether a value is made of what a feature gives, and of nothing that another one has to do with.
+    fn hands_on(&self, node: &Node, line: usize) -> bool {
+        let from = self.from(node);
+        let mut others = self.belongs.iter().enumerate().filter(|(other, _)| *other != line);
+        let is_beside = |(_, other): (usize, &Belongs)| {
+            !self.flow.made_of(&other.gone, &|_, _| false).contains(node)
+                && !other.gone.iter().chain(&other.given).any(|node| from.contains(node))
+        };
+        !from.is_disjoint(&self.belongs[line].given) && others.all(is_beside)
+    }
+
+    fn from(&self, node: &Node) -> BTreeSet<Node> {
+        self.flow.made_of(&BTreeSet::from([node.clone()]), &|_, _| false)
+    }
+
+    fn named(&self, nodes: BTreeSet<Node>) -> Vec<String> {
+        let own = nodes.into_iter().filter(|node| self.flow.is_computed(node)).map(|(_, name)| name);
+        own.collect::<BTreeSet<String>>().into_iter().collect()
+    }
+}
