@@ -4,9 +4,11 @@
 //! that is handed in, it is given exactly what the probes' own vertex stage hands over.
 
 mod bench;
+mod handed_over;
 mod inputs;
 
 pub use bench::Bench;
+pub use handed_over::ToldByOutputs;
 
 use crate::equation::Reads;
 use crate::interpreter::{Interpolation, Program, ProgramVariable, Scalar, Stage};

@@ -138,7 +138,7 @@ fn told_by_text(
         return (!lines.is_empty()).then(|| Cause::Repaired(vec![(lines, repaired)]));
     }
     let terms = judge_features(alternatives, samples, COLOUR_TOLERANCE);
-    let terms = spared::beside(evidence, terms, &findings);
+    let terms = spared::by_outputs(evidence, spared::beside(evidence, terms, &findings));
     (!is_little).then_some(Cause::Unexplained { terms, findings })
 }
 
@@ -194,7 +194,7 @@ fn unexplained(
                 terms.retain(|term| term.line != feature.line);
                 terms.push(feature);
             }
-            spared::beside(evidence, addends::credit(evidence, terms), &findings)
+            spared::by_outputs(evidence, spared::beside(evidence, addends::credit(evidence, terms), &findings))
         }
     };
     let wrong = if repairs.is_empty() { terms.clone() } else { spared::computed(evidence, terms.clone()) };

@@ -1,6 +1,7 @@
 //! What an answer that is wrong somewhere keeps, for its text computes that right.
 
 use crate::diagnose::inside::{self, Finding};
+use crate::diagnose::trials::{FUEL_OF_TRACE, place};
 use crate::diagnose::{Evidence, addends};
 use reference::Assignment;
 use reference::assignment::RubricLine;
@@ -8,12 +9,43 @@ use reference::derived::is_derived;
 use reference::equation::Reads;
 use reference::fit::TermJudgement;
 use reference::mistake::FoundMistake;
+use reference::traced::ToldByOutputs;
+
+/// The judgements, corrected by the outputs of a vertex stage that have names of their own.
+pub fn by_outputs(evidence: &Evidence<'_>, known: Vec<TermJudgement>) -> Vec<TermJudgement> {
+    let mut terms = known.clone();
+    let ToldByOutputs { right, wrong } = told_by_outputs(evidence);
+    let judged = evidence.samples.len();
+    let worst = terms.iter().find_map(|term| term.worst);
+    for (line, is_right) in
+        right.into_iter().map(|line| (line, true)).chain(wrong.into_iter().map(|line| (line, false)))
+    {
+        let id = &evidence.assignment.rubric[line].id;
+        if terms.iter().any(|term| term.line == *id && term.is_right() == is_right) {
+            continue;
+        }
+        let matched = if is_right { judged } else { judged.saturating_sub(1) };
+        terms.retain(|term| term.line != *id);
+        terms.push(TermJudgement { matched, worst: worst.filter(|_| !is_right), ..TermJudgement::right(id, judged) });
+    }
+    // Something is wrong that no line tells.
+    if terms.iter().all(TermJudgement::is_right) { known } else { terms }
+}
+
+fn told_by_outputs(evidence: &Evidence<'_>) -> ToldByOutputs {
+    let Some(program) = evidence.traced else { return ToldByOutputs::default() };
+    let places: Vec<_> = (0..evidence.probes.probes.len()).map(|at| place(evidence, at)).collect();
+    evidence.assignment.told_by_outputs(program, &places, FUEL_OF_TRACE)
+}
 
 /// The judgements; right are also the terms that no place of a mistake has to do with: with the right values in these places,
 /// everything is right.
 pub fn beside(evidence: &Evidence<'_>, mut terms: Vec<TermJudgement>, findings: &[Finding]) -> Vec<TermJudgement> {
     let assignment = evidence.assignment;
-    if let Some(right) = elsewhere(assignment, findings) {
+    let moves = findings.iter().any(|finding| finding.touches_position);
+    let is_left =
+        |right: &Vec<String>| moves || terms.iter().any(|term| !term.is_right() && !right.contains(&term.line));
+    if let Some(right) = elsewhere(assignment, findings).filter(is_left) {
         terms.retain(|term| !right.contains(&term.line));
         terms.extend(right.iter().map(|line| TermJudgement::right(line, evidence.samples.len())));
         return terms;
@@ -42,22 +74,27 @@ pub fn beside(evidence: &Evidence<'_>, mut terms: Vec<TermJudgement>, findings: 
 }
 
 /// The ids of the lines that are about other variables of the solution than those in which places of mistakes were found; none where
-/// a place is all that is seen, or in none that a line is about.
+/// a place is all that is seen, or in none that a line is about. A line that judges where all stands has what moves that, and what
+/// follows from it.
 fn elsewhere(assignment: &Assignment, findings: &[Finding]) -> Option<Vec<String>> {
-    let serves = |finding: &Finding| finding.serves.clone().filter(|_| !finding.is_whole);
-    let names: Vec<String> = findings.iter().map(serves).collect::<Option<_>>()?;
-    if names.is_empty() || !names.iter().all(|name| assignment.lines_about(name).next().is_some()) {
-        return None;
-    }
-    let is_wrong = |line: &RubricLine| line.variables.iter().any(|name| names.contains(name));
+    let owners = |finding: &Finding| -> Option<Vec<&RubricLine>> {
+        let name = finding.serves.as_deref().filter(|_| !finding.is_whole)?;
+        let about = || assignment.lines_about(name);
+        let of_position: Vec<&RubricLine> =
+            about().filter(|line| finding.touches_position && assignment.judges_position(line)).collect();
+        let of_colour = || about().filter(|line| !assignment.judges_position(line)).collect();
+        Some(if of_position.is_empty() { of_colour() } else { of_position }).filter(|lines| !lines.is_empty())
+    };
+    let wrong: Vec<Vec<&RubricLine>> = findings.iter().map(owners).collect::<Option<_>>()?;
+    let is_wrong = |line: &RubricLine| wrong.iter().flatten().any(|own| own.id == line.id);
     let right = assignment.rubric.iter().filter(|line| !line.variables.is_empty() && !is_wrong(line));
-    Some(right.map(|line| line.id.clone()).collect())
+    (!wrong.is_empty()).then(|| right.map(|line| line.id.clone()).collect())
 }
 
 /// The ids of the lines that derived mistakes cost nothing, for the text computes what they judge; none where these are all.
 pub fn by_text(evidence: &Evidence<'_>, found: &[FoundMistake]) -> Vec<String> {
     let assignment = evidence.assignment;
-    if assignment.equation.reads() != Reads::Outputs || !found.iter().all(|found| is_derived(&found.id)) {
+    if !assignment.is_told_by_features() || !found.iter().all(|found| is_derived(&found.id)) {
         return Vec::new();
     }
     let costs = |line: &&RubricLine| found.iter().any(|found| assignment.keeps(found, line) < 1.0);
@@ -71,6 +108,7 @@ pub fn by_text(evidence: &Evidence<'_>, found: &[FoundMistake]) -> Vec<String> {
 fn computed_of(evidence: &Evidence<'_>, wrong: &[&str]) -> Vec<String> {
     let rubric = &evidence.assignment.rubric;
     let mut lines = inside::computed_lines(evidence);
+    lines.extend(told_by_outputs(evidence).right.into_iter().map(|line| rubric[line].id.clone()));
     let is_value = |number: usize| evidence.assignment.judges_a_value(number);
     let is_left = |(number, line): (usize, &RubricLine)| {
         is_value(number) && wrong.contains(&line.id.as_str()) && !lines.contains(&line.id)
@@ -84,7 +122,7 @@ fn computed_of(evidence: &Evidence<'_>, wrong: &[&str]) -> Vec<String> {
 
 /// The judgements; right are also the lines of which the text computes what they judge, unless these are all.
 pub fn computed(evidence: &Evidence<'_>, terms: Vec<TermJudgement>) -> Vec<TermJudgement> {
-    if evidence.assignment.equation.reads() != Reads::Outputs {
+    if !evidence.assignment.is_told_by_features() {
         return terms;
     }
     let wrong: Vec<&str> = terms.iter().filter(|term| !term.is_right()).map(|term| term.line.as_str()).collect();
