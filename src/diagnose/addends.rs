@@ -22,11 +22,11 @@ const STRIDE: usize = 7;
 
 /// What is added to a value to see what becomes of it, in red, green and blue: other than any constant of a homework, and
 /// different so that no channel passes for another.
-const ADDED: [f64; 3] = [0.173, 0.139, 0.111];
+pub(super) const ADDED: [f64; 3] = [0.173, 0.139, 0.111];
 
 /// A value beyond this counts as 0, as what is not finite does: such a term costs the others nothing. Those of a right answer
 /// stay below 100.
-const OVERFLOWING: f64 = 1e4;
+pub(super) const OVERFLOWING: f64 = 1e4;
 
 /// So exactly the colour has to move by what is added. Noise: 1e-12 (f64). Defect to catch: a factor of 0.999.
 const EXACT: f64 = 1e-5;

@@ -4,7 +4,7 @@ use super::quantities::at_last_corner;
 use super::search::Search;
 use super::walk::{made_of, roots};
 use super::{FUEL_OF_TRACE, Stage};
-use crate::diagnose::addends::{passes, raised};
+use crate::diagnose::addends::{ADDED, OVERFLOWING, passes, raised};
 use crate::diagnose::columns::{ScalarColumns, is_constant, is_number, is_same};
 use crate::diagnose::trials::StageChanges;
 use glam::DVec3;
@@ -13,7 +13,7 @@ use reference::traced::{Bench, Seen, TracedProgram};
 
 /// What a line judges.
 struct Feature {
-    /// What the text may compute: the value, or what it has more than what is there without the feature.
+    /// What the text may compute: the value, what it has more than what is there without the feature, or what that makes of all.
     values: Vec<ScalarColumns>,
     lanes: Vec<bool>,
     /// By how much all that is seen moves when something is added to the value.
@@ -35,7 +35,8 @@ impl Search<'_, '_> {
 
     fn lines_with(&self, is_it: impl Fn(&Self, &Feature) -> bool) -> Vec<String> {
         let rubric = self.assignment.rubric.iter().enumerate();
-        let own = rubric.filter(|(line, _)| self.feature(*line).is_some_and(|feature| is_it(self, &feature)));
+        let features = |line| self.feature(line).into_iter().chain(self.contribution(line));
+        let own = rubric.filter(|(line, _)| features(*line).any(|feature| is_it(self, &feature)));
         own.map(|(_, line)| line.id.clone()).collect()
     }
 
@@ -50,6 +51,21 @@ impl Search<'_, '_> {
         let values: Vec<ScalarColumns> = [event.values, more].into_iter().filter(is_telling).collect();
         let feature = Feature { values, lanes: event.lanes, moves };
         (!feature.values.is_empty()).then_some(feature)
+    }
+
+    /// What the line's feature adds to all that is seen: a text may sum up what the solution adds piece by piece.
+    fn contribution(&self, line: usize) -> Option<Feature> {
+        let programs = self.assignment.feature_values(line).filter(|_| !self.in_quads)?;
+        let [with, without] = programs.map(|(program, ..)| {
+            let bench = Bench::new(self.assignment, &program, self.places, self.in_quads, FUEL_OF_TRACE)?;
+            Some(bench.bounded(OVERFLOWING).with(&StageChanges::default())?.colours)
+        });
+        let more: Vec<DVec3> = with?.iter().zip(without?).map(|(with, without)| *with - without).collect();
+        let channel = |at: usize| more.iter().map(|more| more[at]).collect();
+        let values: ScalarColumns = (0..3).map(channel).collect();
+        let is_telling = !is_any_number(&values);
+        let moves = vec![DVec3::from(ADDED); more.len()];
+        is_telling.then(|| Feature { values: vec![values], lanes: vec![true; more.len()], moves })
     }
 
     /// The same where the fragment stage is handed what the vertex stage of a right answer computes: of the last corner.
