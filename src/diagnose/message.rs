@@ -84,7 +84,25 @@ fn of_mistake(evidence: &Evidence<'_>, facts: &Facts, line: &RubricLine, cause: 
         text.en = format!("{} ({}.)", text.en, place.en);
         text.ja = format!("{}({})", text.ja, place.ja);
     }
+    if let (Some(line), Some(file)) = (blanks.line, &blanks.file) {
+        text = with_file(&text, line, file);
+    }
     Told { text, line: is_full.then_some(blanks.line).flatten(), file: blanks.file.clone() }
+}
+
+/// A text that says of which file a line is, where it names it first.
+fn with_file(text: &Text, line: u32, file: &str) -> Text {
+    let name = format!("{line}");
+    let is_whole = |rest: &str| !rest.starts_with(|next: char| next.is_ascii_digit());
+    let place = |text: &str, before: &str, behind: &str| {
+        let word = format!("{before}{name}{behind}");
+        text.match_indices(&word)
+            .map(|(at, _)| [at, at + word.len()])
+            .find(|[at, end]| is_whole(&text[*end..]) && !text[..*at].ends_with(|last: char| last.is_ascii_digit()))
+    };
+    let en = place(&text.en, "ine ", "").map(|[_, end]| format!("{} of `{file}`{}", &text.en[..end], &text.en[end..]));
+    let ja = place(&text.ja, "", " 行目").map(|[at, _]| format!("{}`{file}` の {}", &text.ja[..at], &text.ja[at..]));
+    Text::new(en.unwrap_or_else(|| text.en.clone()), ja.unwrap_or_else(|| text.ja.clone()))
 }
 
 /// Whether a mistake is only known by what is seen, so that its texts say nothing of the place.

@@ -14,7 +14,11 @@ impl Labels {
             Verdict::Wrong => {
                 let line = report.rubric.iter().find(|line| line.points < line.max_points)?;
                 let points = number(line.max_points - line.points);
-                Some(self.start_with(line.label.get(language), line.line, &points))
+                Some(self.start_with(
+                    line.label.get(language),
+                    line.line.map(|own| (own, line.file.as_deref())),
+                    &points,
+                ))
             }
             Verdict::Rejected => {
                 let errors = report.diagnostics.iter().filter(|d| d.severity == Severity::Error);
@@ -24,15 +28,21 @@ impl Labels {
         }
     }
 
-    fn start_with(&self, label: &str, line: Option<u32>, points: &str) -> String {
+    fn start_with(&self, label: &str, line: Option<(u32, Option<&str>)>, points: &str) -> String {
         match (line, self.japanese()) {
-            (Some(line), true) => {
+            (Some((line, Some(file))), true) => {
+                format!("まず {file} の {line} 行目を見てみましょう。{label}であと {points} 点取れます。")
+            }
+            (Some((line, Some(file))), false) => {
+                format!("Look at line {line} of {file} first: {label} has {points} more points to give.")
+            }
+            (Some((line, None)), true) => {
                 format!("まず {line} 行目を見てみましょう。{label}であと {points} 点取れます。")
             }
             (None, true) => {
                 format!("まず{label}から見直してみましょう。あと {points} 点取れます。")
             }
-            (Some(line), false) => {
+            (Some((line, None)), false) => {
                 format!("Look at line {line} first: {label} has {points} more points to give.")
             }
             (None, false) => format!("Start with {label}: it has {points} more points to give."),
