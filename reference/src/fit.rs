@@ -27,6 +27,7 @@ pub use programs::programs_of;
 pub use terms::{TermJudgement, Worst};
 
 use crate::Assignment;
+use crate::accepted::Computed;
 use crate::mistake::FoundMistake;
 use crate::probes::{Probe, ProbeSet};
 use glam::DVec3;
@@ -131,6 +132,23 @@ pub fn contradicted(
     }
     let pairs = probes.iter().zip(samples);
     pairs.map(|(probe, sample)| !expected(probe).is_some_and(|expected| agrees(expected, sample, tolerance))).collect()
+}
+
+/// At how many probes a mistake shows something else than a right answer, or elsewhere.
+pub fn showing(assignment: &Assignment, found: &FoundMistake, probes: &ProbeSet, tolerance: f64) -> usize {
+    let found = std::slice::from_ref(found);
+    let shown: Vec<Computed> = match (assignment.together(found, None), assignment.variant(found)) {
+        (Some(answer), _) => assignment.computed_by(&answer, probes),
+        (None, Some(variant)) => {
+            let outcome = |probe: &Probe| variant.evaluate(probes.uniforms(probe), &probe.attributes);
+            probes.iter().map(|probe| (outcome(probe).colour(), outcome(probe).position())).collect()
+        }
+        (None, None) => return 0,
+    };
+    let differs = |(probe, (colour, position)): &(&Probe, Computed)| {
+        !agrees(probe.colour, *colour, tolerance) || (probe.position - *position).abs().max_element() > tolerance
+    };
+    probes.iter().zip(shown).filter(differs).count()
 }
 
 /// A sample for each probe.

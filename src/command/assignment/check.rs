@@ -146,7 +146,14 @@ fn say_time(said: CheckWording, took: Duration, deadline: Duration) {
 /// Whether what is handed out leaves something to do.
 fn say_starter(said: CheckWording, report: &Report) -> bool {
     let is_unfinished = report.verdict == Verdict::Wrong;
-    let scored = scored("what is handed out", "配布ファイル", report);
+    let mut scored = scored("what is handed out", "配布ファイル", report);
+    if let Some(first) =
+        report.diagnostics.first().filter(|_| matches!(report.verdict, Verdict::Rejected | Verdict::Stopped))
+    {
+        let line = first.line.map_or_else(String::new, |line| format!("{line}: "));
+        scored.en += &format!(": {line}{}", first.message.en);
+        scored.ja += &format!(": {line}{}", first.message.ja);
+    }
     if is_unfinished && report.score > 0.0 {
         said.note(&Text::new(
             format!("{}: whoever hands it in as it is has them too", scored.en),

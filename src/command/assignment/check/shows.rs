@@ -94,9 +94,8 @@ fn say_mistake(
         if form > 0 {
             continue;
         }
-        let samples: Vec<[f64; 3]> = probes.iter().map(|probe| probe.colour.to_array()).collect();
-        let differs = fit::contradicted(assignment, &[found], probes, &samples, fit::TOLERANCE);
-        let place = place(probes, differs.iter().filter(|differs| **differs).count(), frames.as_deref(), right);
+        let shows = fit::showing(assignment, &found, probes, fit::TOLERANCE);
+        let place = place(probes, shows, frames.as_deref(), right);
         let id = &mistake.id;
         let text = Text::new(format!("mistake `{id}`: shows {}", place.en), format!("間違い `{id}`: {}", place.ja));
         let is_seen = frames.is_none_or(|frames| frames.iter().zip(right).any(|(own, right)| is_seen(own, right)));
