@@ -94,7 +94,7 @@ pub fn translate(source: &Source, interface: &LinkedInterface) -> Result<Transla
     let mut diagnostics = stage.diagnostics(&verdict)?;
     let spirv = stage.second_pass()?;
     gate::check_words(&spirv, source, Stage::Vertex, &interface.set_uniforms())?;
-    let outputs = Some(vec![interface.output.name.clone()]);
+    let outputs = Some(vec![interface.colour().to_owned()]);
     let shader = module::build(
         spirv,
         source,
@@ -163,12 +163,12 @@ pub fn fixed_stage(interface: &LinkedInterface, vertex: &str) -> Result<Shader, 
 
 /// The same before any assignment is known.
 pub fn warm_up() {
-    let output = Variable { name: "colour".into(), ty: "vec4".into() };
     let fragment = c"#version 410 core\nin vec4 colour; out vec4 fragment; void main() { fragment = colour; }";
     let interface = LinkedInterface {
+        stage: Stage::Vertex,
         inputs: vec![],
         uniforms: vec![],
-        output,
+        outputs: vec![Variable { name: "colour".into(), ty: "vec4".into() }],
         constants: vec![],
         version: String::new(),
         alike: None,
