@@ -30,20 +30,16 @@ impl Labels {
 
     fn start_with(&self, label: &str, line: Option<(u32, Option<&str>)>, points: &str) -> String {
         match (line, self.japanese()) {
-            (Some((line, Some(file))), true) => {
-                format!("まず {file} の {line} 行目を見てみましょう。{label}であと {points} 点取れます。")
-            }
-            (Some((line, Some(file))), false) => {
-                format!("Look at line {line} of {file} first: {label} has {points} more points to give.")
-            }
-            (Some((line, None)), true) => {
-                format!("まず {line} 行目を見てみましょう。{label}であと {points} 点取れます。")
+            (Some((line, file)), true) => {
+                let of = file.map_or_else(String::new, |file| format!("{file} の "));
+                format!("まず {of}{line} 行目を見てみましょう。{label}であと {points} 点取れます。")
             }
             (None, true) => {
                 format!("まず{label}から見直してみましょう。あと {points} 点取れます。")
             }
-            (Some((line, None)), false) => {
-                format!("Look at line {line} first: {label} has {points} more points to give.")
+            (Some((line, file)), false) => {
+                let of = file.map_or_else(String::new, |file| format!(" of {file}"));
+                format!("Look at line {line}{of} first: {label} has {points} more points to give.")
             }
             (None, false) => format!("Start with {label}: it has {points} more points to give."),
         }

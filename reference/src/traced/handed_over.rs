@@ -39,42 +39,56 @@ impl Assignment {
         let mut wrong = differing(&right, &own);
         // What is computed from another place is no mistake of its own.
         let is_placed = !wrong.remove(POSITION);
+        if wrong.is_empty() {
+            return None;
+        }
+        let changed = self.changed_outputs(&right, places, fuel)?;
+        let lines: Vec<usize> =
+            (0..self.rubric.len()).filter(|line| !self.judges_position(&self.rubric[*line])).collect();
+        let is_alone =
+            |name: &&str, line: usize| lines.iter().all(|other| *other == line || !changed[*other].contains(*name));
+        let mut told = ToldByOutputs::default();
+        for line in lines.iter().copied().filter(|line| !changed[*line].is_empty()) {
+            if changed[line].is_disjoint(&wrong) {
+                told.right.push(line);
+            } else if is_placed && changed[line].intersection(&wrong).any(|name| is_alone(name, line)) {
+                told.wrong.push(line);
+            }
+        }
+        Some(told)
+    }
+
+    /// The outputs that each line of the rubric tells about: those that its feature changes, or that no feature changes and it names
+    /// itself; of a line without a feature, all others. None where lines are known by definitions.
+    fn changed_outputs<'w>(
+        &self,
+        right: &'w Written,
+        places: &[Place<'_>],
+        fuel: u64,
+    ) -> Option<Vec<BTreeSet<&'w str>>> {
+        let outputs = || right.keys().map(String::as_str).filter(|name| *name != POSITION);
         let mut changed: Vec<Option<BTreeSet<&str>>> = Vec::new();
         for feature in &self.features {
             changed.push(match feature {
                 Some(Feature::Program(answer)) => {
-                    let without = self.written(&answer.pipeline.vertex, places, fuel)?;
-                    Some(differing(&right, &without).into_iter().filter(|name| *name != POSITION).collect())
+                    let mut own = differing(right, &self.written(&answer.pipeline.vertex, places, fuel)?);
+                    own.remove(POSITION);
+                    Some(own)
                 }
                 Some(Feature::Term(_)) => return None,
                 None => None,
             });
         }
         let by_features: BTreeSet<&str> = changed.iter().flatten().flatten().copied().collect();
-        // What no feature changes is judged by the line that says so.
-        for (line, changed) in self.rubric.iter().zip(&mut changed) {
-            let said = right.keys().map(String::as_str).filter(|name| line.variables.iter().any(|own| own == name));
-            if let Some(changed) = changed {
-                changed.extend(said.filter(|name| !by_features.contains(name)));
+        for (line, own) in self.rubric.iter().zip(&mut changed) {
+            let is_said = |name: &&str| !by_features.contains(name) && line.variables.iter().any(|said| said == name);
+            if let Some(own) = own {
+                own.extend(outputs().filter(is_said));
             }
         }
-        let by_features: BTreeSet<&str> = changed.iter().flatten().flatten().copied().collect();
-        let rest: BTreeSet<&str> =
-            right.keys().map(String::as_str).filter(|name| !by_features.contains(name) && *name != POSITION).collect();
-        let own = |line: usize| changed[line].as_ref().unwrap_or(&rest);
-        let lines: Vec<usize> =
-            (0..self.rubric.len()).filter(|line| !self.judges_position(&self.rubric[*line])).collect();
-        let is_alone =
-            |name: &&str, line: usize| lines.iter().all(|other| *other == line || !own(*other).contains(*name));
-        let mut told = ToldByOutputs::default();
-        for line in lines.iter().copied().filter(|line| !wrong.is_empty() && !own(*line).is_empty()) {
-            if own(line).is_disjoint(&wrong) {
-                told.right.push(line);
-            } else if is_placed && own(line).intersection(&wrong).any(|name| is_alone(name, line)) {
-                told.wrong.push(line);
-            }
-        }
-        Some(told)
+        let told: BTreeSet<&str> = changed.iter().flatten().flatten().copied().collect();
+        let rest: BTreeSet<&str> = outputs().filter(|name| !told.contains(name)).collect();
+        Some(changed.into_iter().map(|own| own.unwrap_or_else(|| rest.clone())).collect())
     }
 
     fn written(&self, vertex: &Program, places: &[Place<'_>], fuel: u64) -> Option<Written> {

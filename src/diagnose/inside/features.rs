@@ -11,6 +11,9 @@ use glam::DVec3;
 use reference::interpreter::trace::{Event, Trace};
 use reference::traced::{Bench, Seen, TracedProgram};
 
+/// The solution with a feature's value or with what is there instead, and the stage and the site of that.
+type FeatureValue = (TracedProgram, Stage, usize);
+
 /// What a line judges.
 struct Feature {
     /// What the text may compute: the value, what it has more than what is there without the feature, or what that makes of all.
@@ -35,15 +38,18 @@ impl Search<'_, '_> {
 
     fn lines_with(&self, is_it: impl Fn(&Self, &Feature) -> bool) -> Vec<String> {
         let rubric = self.assignment.rubric.iter().enumerate();
-        let features = |line| self.feature(line).into_iter().chain(self.contribution(line));
-        let own = rubric.filter(|(line, _)| features(*line).any(|feature| is_it(self, &feature)));
+        let has_it = |line: usize| {
+            let Some(programs) = self.assignment.feature_values(line) else { return false };
+            self.feature(&programs).is_some_and(|own| is_it(self, &own))
+                || self.contribution(&programs).is_some_and(|own| is_it(self, &own))
+        };
+        let own = rubric.filter(|(line, _)| has_it(*line));
         own.map(|(_, line)| line.id.clone()).collect()
     }
 
-    fn feature(&self, line: usize) -> Option<Feature> {
-        let [with, without] = self.assignment.feature_values(line)?;
-        let (event, moves) = self.value_of(&with)?;
-        let (instead, _) = self.value_of(&without)?;
+    fn feature(&self, [with, without]: &[FeatureValue; 2]) -> Option<Feature> {
+        let (event, moves) = self.value_of(with)?;
+        let (instead, _) = self.value_of(without)?;
         let more =
             |(own, instead): (&Vec<f64>, &Vec<f64>)| own.iter().zip(instead).map(|(own, less)| own - less).collect();
         let more: ScalarColumns = event.values.iter().zip(&instead.values).map(more).collect();
@@ -54,10 +60,12 @@ impl Search<'_, '_> {
     }
 
     /// What the line's feature adds to all that is seen: a text may sum up what the solution adds piece by piece.
-    fn contribution(&self, line: usize) -> Option<Feature> {
-        let programs = self.assignment.feature_values(line).filter(|_| !self.in_quads)?;
-        let [with, without] = programs.map(|(program, ..)| {
-            let bench = Bench::new(self.assignment, &program, self.places, self.in_quads, FUEL_OF_TRACE)?;
+    fn contribution(&self, programs: &[FeatureValue; 2]) -> Option<Feature> {
+        if self.in_quads {
+            return None;
+        }
+        let [with, without] = programs.each_ref().map(|(program, ..)| {
+            let bench = Bench::new(self.assignment, program, self.places, self.in_quads, FUEL_OF_TRACE)?;
             Some(bench.bounded(OVERFLOWING).with(&StageChanges::default())?.colours)
         });
         let more: Vec<DVec3> = with?.iter().zip(without?).map(|(with, without)| *with - without).collect();
@@ -78,7 +86,7 @@ impl Search<'_, '_> {
     }
 
     /// The only value of a site, and by how much all that is seen moves when something is added to it.
-    fn value_of(&self, (program, stage, site): &(TracedProgram, Stage, usize)) -> Option<(Event, Vec<DVec3>)> {
+    fn value_of(&self, (program, stage, site): &FeatureValue) -> Option<(Event, Vec<DVec3>)> {
         let mut bench = Bench::new(self.assignment, program, self.places, self.in_quads, FUEL_OF_TRACE)?;
         let (before, traces) = bench.trace(&StageChanges::default())?;
         let trace = traces[*stage as usize].as_ref()?;

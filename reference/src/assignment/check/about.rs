@@ -41,7 +41,8 @@ pub(super) fn complete(assignment: &mut Assignment) {
     let Some(belongs) = belongs.collect::<Option<Vec<Belongs>>>() else { return };
     let has_rest = lines.iter().any(|at| assignment.features[*at].is_none());
     let colour = assignment.equation.definitions[assignment.equation.colour].name.clone();
-    let lines_of = Lines { rest: rest(&flow, &belongs, &colour), flow, belongs, has_rest };
+    let within = belongs.iter().map(|own| flow.made_of(&own.gone, &|_, _| false)).collect();
+    let lines_of = Lines { rest: rest(&flow, &belongs, &colour), flow, belongs, within, has_rest };
     let said = lines.iter().flat_map(|at| assignment.rubric[*at].variables.iter().cloned());
     let said: BTreeSet<String> = said.collect();
     for (own, at) in lines.into_iter().enumerate() {
@@ -98,6 +99,8 @@ fn rest(flow: &Flow<'_>, all: &[Belongs], colour: &str) -> BTreeSet<Node> {
 struct Lines<'t> {
     flow: Flow<'t>,
     belongs: Vec<Belongs>,
+    /// For each line what is gone without its feature, and what that is made of.
+    within: Vec<BTreeSet<Node>>,
     /// What the colour is made of without all features.
     rest: BTreeSet<Node>,
     /// Whether a line judges that.
@@ -107,13 +110,12 @@ struct Lines<'t> {
 impl Lines<'_> {
     /// What a line with a feature is about.
     fn about(&self, line: usize) -> BTreeSet<Node> {
-        let Belongs { gone, given, .. } = &self.belongs[line];
-        let mut about = self.flow.made_of(gone, &|_, _| false);
         // What goes into the colour in other ways as well is nobody's own.
-        about.retain(|node| self.has_rest || !self.rest.contains(node));
+        let within = self.within[line].iter().filter(|node| self.has_rest || !self.rest.contains(node));
+        let mut about: BTreeSet<Node> = within.cloned().collect();
         let own = self.flow.computed().filter(|node| self.combines(node, line) || self.hands_on(node, line));
         about.extend(own.cloned());
-        about.extend(given.iter().cloned());
+        about.extend(self.belongs[line].given.iter().cloned());
         about
     }
 
@@ -127,8 +129,8 @@ impl Lines<'_> {
     fn hands_on(&self, node: &Node, line: usize) -> bool {
         let from = self.from(node);
         let mut others = self.belongs.iter().enumerate().filter(|(other, _)| *other != line);
-        let is_beside = |(_, other): (usize, &Belongs)| {
-            !self.flow.made_of(&other.gone, &|_, _| false).contains(node)
+        let is_beside = |(number, other): (usize, &Belongs)| {
+            !self.within[number].contains(node)
                 && !other.gone.iter().chain(&other.given).any(|node| from.contains(node))
         };
         !from.is_disjoint(&self.belongs[line].given) && others.all(is_beside)
