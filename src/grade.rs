@@ -133,10 +133,17 @@ impl Grader {
 
     /// Grades one hand-in.
     pub fn grade(&mut self, hand_in: &HandIn, order: Order) -> Result<Graded, Fault> {
+        self.grade_in_two(hand_in, order, &mut || ())
+    }
+
+    /// The same. `drawn` is called once what was handed in has run: what still takes time from there on is ours.
+    pub fn grade_in_two(&mut self, hand_in: &HandIn, order: Order, drawn: &mut dyn FnMut()) -> Result<Graded, Fault> {
         let start = Instant::now();
         // A panic of the translator or renderer is our limit. The process is not to be used again.
-        let judged = catch_unwind(AssertUnwindSafe(|| self.judge(hand_in, order)));
-        let mut graded = judged.unwrap_or_else(|panic| Err(translate::unsupported(&panic_message(&*panic))))?;
+        let judged = catch_unwind(AssertUnwindSafe(|| self.judge(hand_in, order, drawn)));
+        let mut graded = judged.unwrap_or_else(|panic| {
+            Err(translate::unsupported(&format!("ggrade broke off ({})", panic_message(&*panic))))
+        })?;
         graded.report.name_file();
         graded.report.hints = order.hints;
         if order.hints == Hints::None {
@@ -146,7 +153,7 @@ impl Grader {
         Ok(graded)
     }
 
-    fn judge(&mut self, hand_in: &HandIn, order: Order) -> Result<Graded, Fault> {
+    fn judge(&mut self, hand_in: &HandIn, order: Order, drawn: &mut dyn FnMut()) -> Result<Graded, Fault> {
         let arranged = slots::arrange(&self.assignment.files, hand_in, Trust::Named);
         let sources = unfinished::described(&self.assignment, hand_in, arranged.as_ref().ok());
         let files = match arranged {
@@ -154,8 +161,8 @@ impl Grader {
             Err(why) => return Ok(self.rejected(sources, vec![Diagnostic::error(DiagnosticStage::Source, why)])),
         };
         match files.as_slice() {
-            [file] if self.programs.is_none() => self.judge_vertex_shader(sources, file, order),
-            files => self.judge_program(sources, files, order),
+            [file] if self.programs.is_none() => self.judge_vertex_shader(sources, file, order, drawn),
+            files => self.judge_program(sources, files, order, drawn),
         }
     }
 

@@ -52,6 +52,10 @@ pub fn driver_settings(adapter: AdapterKind) -> Vec<(&'static str, OsString)> {
     environment::variables(adapter)
 }
 
+/// Processor time for our own judgement of one submission that has run, to a homework that has the usual time: many times what any
+/// needs, since its steps are bounded. To exceed it is our failure.
+const JUDGING: Duration = Duration::from_secs(10);
+
 /// How workers grade.
 #[derive(Clone, Debug)]
 pub struct Settings {

@@ -44,6 +44,7 @@ impl Grader {
         infos: Vec<SourceInfo>,
         files: &[HandedInFile],
         order: Order,
+        drawn: &mut dyn FnMut(),
     ) -> Result<Graded, Fault> {
         let mut sources: Vec<(Stage, Source)> = Vec::new();
         let mut refused: Vec<Diagnostic> = Vec::new();
@@ -100,13 +101,14 @@ impl Grader {
             diagnostics.insert(0, error);
             return Ok(self.refused(infos, Verdict::Stopped, diagnostics));
         }
-        let drawn = Rendering { probe_samples: samples(&linked, &rendering), undefined: None, ..rendering };
+        drawn();
+        let drawing = Rendering { probe_samples: samples(&linked, &rendering), undefined: None, ..rendering };
         let Some((_, source)) = sources.last() else { return Err(no_program()) };
         let own = extended.as_ref();
         let (assignment, probes) = own.map_or((&*self.assignment, &self.probes), |own| (&own.assignment, &own.probes));
         let fresh = own_fresh.as_ref().unwrap_or(&probing.fresh);
         let crossings = own_crossings.as_ref().or(self.crossings.as_ref());
-        let (sources, rendering) = (&given[..], &drawn);
+        let (sources, rendering) = (&given[..], &drawing);
         let judged = JudgedHandIn { source, sources, assignment, probes, fresh, crossings, rendering };
         let mut report = self.report(judged, diagnostics, order.hints);
         if report.verdict == Verdict::Wrong {
@@ -121,7 +123,7 @@ impl Grader {
             cross_check::check_program(assignment, &given, probes, &samples)
         });
         report.sources = infos;
-        Ok(Graded { report, frames: Some(drawn.frames) })
+        Ok(Graded { report, frames: Some(drawing.frames) })
     }
 
     /// Draws a program. What the fixed vertex stage does with the frames is the same for every submission.

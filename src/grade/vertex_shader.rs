@@ -20,6 +20,7 @@ impl Grader {
         sources: Vec<SourceInfo>,
         file: &HandedInFile,
         order: Order,
+        drawn: &mut dyn FnMut(),
     ) -> Result<Graded, Fault> {
         let assignment = Arc::clone(&self.assignment);
         let array = assignment.files[0].program.as_ref().map(|program| &program.array);
@@ -68,6 +69,7 @@ impl Grader {
         if rendering.undefined.is_some() && !self.shows_undefined(&source, shader, scene, &rendering)? {
             rendering.undefined = None;
         }
+        drawn();
         let sources_given = [(translate::Stage::Vertex, &source)];
         let judged = JudgedHandIn {
             source: &source,

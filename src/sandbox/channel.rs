@@ -54,26 +54,31 @@ impl Channel {
         Ok(Self { stdin, stdout, stderr: Some(stderr), tail: VecDeque::new() })
     }
 
-    /// Sends `message` and waits for one that fits into `longest`. At the deadline `later` says until when to wait on, if at all.
+    /// Sends `message` and waits for one that fits into `longest`. `further` says until when to wait on, if at all: at the deadline, where
+    /// there is nothing to show it, and for another message after the one that it is shown.
     pub fn exchange<T: DeserializeOwned>(
         &mut self,
         message: &[u8],
         longest: Longest,
         mut deadline: Instant,
-        later: &dyn Fn() -> Option<Instant>,
+        further: &mut dyn FnMut(Option<&T>) -> Option<Instant>,
     ) -> Result<(T, MessageBody), LostAnswer> {
         let mut unsent = message;
         let mut received = Vec::new();
         loop {
             match self.wait(!unsent.is_empty(), deadline) {
-                Err(LostAnswer::Timeout) => deadline = later().ok_or(LostAnswer::Timeout)?,
+                Err(LostAnswer::Timeout) => deadline = further(None).ok_or(LostAnswer::Timeout)?,
                 waited => waited?,
             }
             self.listen();
             unsent = self.push(unsent);
             let open = self.pull(&mut received, longest)?;
             match decode(&mut received, longest) {
-                Ok(Some(answer)) => return Ok(answer),
+                Ok(Some(answer)) => match further(Some(&answer.0)) {
+                    Some(until) => deadline = until,
+                    None if received.is_empty() => return Ok(answer),
+                    None => return Err(LostAnswer::Garbled("more than one answer".into())),
+                },
                 Ok(None) if open => {}
                 Ok(None) => return Err(LostAnswer::Closed),
                 Err(error) => return Err(LostAnswer::Garbled(error.to_string())),

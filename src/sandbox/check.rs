@@ -55,7 +55,7 @@ pub(super) fn check(settings: &Settings, archive: &[u8]) -> Result<Result<Checke
         }
         Answered::Refused(why) => Ok(Err(why)),
         Answered::Failed(fault) => Err(fault),
-        Answered::Loaded | Answered::Graded { .. } => Err(another_answer()),
+        Answered::Loaded | Answered::Drawn | Answered::Graded { .. } => Err(another_answer()),
     }
 }
 

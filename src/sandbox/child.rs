@@ -6,7 +6,8 @@ use super::library::{PictureLibrary, Turn};
 use super::message::{Longest, MessageBody, encode};
 use super::protection::{Policy, Protection};
 use super::protocol::{Answered, Demand, GradingRequest, Hello, Load, Reply};
-use super::{Settings, environment, memory, schedule};
+use super::schedule::Allowance;
+use super::{Settings, environment, memory};
 use crate::expected::Pack;
 use crate::fault::Fault;
 use crate::hand_in::HandIn;
@@ -110,7 +111,7 @@ impl Worker {
 
     /// Waits until the device is warm and the sandbox closed.
     pub fn greet(&mut self, settings: &Settings) -> Result<(), NotStarted> {
-        let hello = self.channel.exchange::<Hello>(&[], HELLO, Instant::now() + START_DEADLINE, &|| None);
+        let hello = self.channel.exchange::<Hello>(&[], HELLO, Instant::now() + START_DEADLINE, &mut |_| None);
         let hello = hello.map_err(|lost| {
             let how = match lost {
                 LostAnswer::Timeout => format!("not ready after {} s", START_DEADLINE.as_secs()),
@@ -182,7 +183,7 @@ impl Worker {
         deadline: Duration,
     ) -> Result<(Reply, MessageBody), String> {
         let message = encode(demand, body).map_err(|error| error.to_string())?;
-        self.channel.exchange::<Reply>(&message, longest, Instant::now() + deadline, &|| None).map_err(|lost| {
+        self.channel.exchange::<Reply>(&message, longest, Instant::now() + deadline, &mut |_| None).map_err(|lost| {
             let how = match lost {
                 LostAnswer::Timeout => format!("no answer after {} s", deadline.as_secs()),
                 LostAnswer::Garbled(detail) => detail,
@@ -197,31 +198,40 @@ impl Worker {
         self.process.id()
     }
 
-    /// Has one submission graded.
+    /// Has one submission graded. The deadline is that of what was handed in; once that has run, [`JUDGING`] is.
     pub fn grade(
         &mut self,
         request: &GradingRequest,
         hand_in: &HandIn,
         frames_bytes: usize,
-        deadline: Duration,
+        [deadline, judging]: [Duration; 2],
     ) -> Result<(Reply, MessageBody), Ending> {
         self.gradings += 1;
         let message = encode(&Demand::Grade(request.clone()), &hand_in.concatenated())
             .map_err(|error| Ending::Garbled(error.to_string()))?;
-        let before = schedule::cpu_time(self.id());
         let longest = Longest { head: REPORT_BYTES, body: frames_bytes };
-        let (id, begin) = (self.id(), Instant::now());
-        let later = || schedule::later(id, before, begin, deadline);
-        match self.channel.exchange::<Reply>(&message, longest, begin + deadline, &later) {
-            Ok((reply, body)) if reply.id == request.id => Ok((reply, body)),
-            Ok(_) => Err(Ending::Garbled("the answer to another question".into())),
-            Err(LostAnswer::Garbled(detail)) => Err(Ending::Garbled(detail)),
-            Err(LostAnswer::Timeout) => Err(schedule::of_late(self.id(), before, deadline)),
-            Err(LostAnswer::Closed) => Err(match self.died() {
+        let (id, mut is_drawn) = (self.id(), false);
+        let mut allowance = Allowance::new(id, deadline);
+        let mut further = |reply: Option<&Reply>| match reply {
+            None => allowance.later(),
+            Some(Reply { outcome: Answered::Drawn, .. }) if !is_drawn => {
+                is_drawn = true;
+                allowance = Allowance::new(id, judging);
+                Some(allowance.end())
+            }
+            Some(_) => None,
+        };
+        let ending = match self.channel.exchange::<Reply>(&message, longest, Instant::now() + deadline, &mut further) {
+            Ok((reply, body)) if reply.id == request.id => return Ok((reply, body)),
+            Ok(_) => Ending::Garbled("the answer to another question".into()),
+            Err(LostAnswer::Garbled(detail)) => Ending::Garbled(detail),
+            Err(LostAnswer::Timeout) => allowance.of_late(),
+            Err(LostAnswer::Closed) => match self.died() {
                 Some(status) => Ending::of(status, &self.channel.tail()),
                 None => Ending::Garbled("the output was closed".into()),
-            }),
-        }
+            },
+        };
+        Err(if is_drawn { ending.while_judging() } else { ending })
     }
 
     /// How the process ended; none where it has not.

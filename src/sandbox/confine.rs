@@ -128,14 +128,19 @@ impl GradingMeter {
 
     /// Gives what comes next such a share.
     pub fn give(&self, limits: WorkerLimits, adapter: AdapterKind) -> io::Result<u64> {
-        let usage = getrusage(UsageWho::RUSAGE_SELF)?;
-        let used = (usage.user_time().tv_sec() + usage.system_time().tv_sec()).unsigned_abs();
-        soft(Resource::RLIMIT_CPU, used + 1 + limits.cpu_seconds)?;
+        self.give_time(limits.cpu_seconds)?;
         let size = self.size()?;
         if adapter == AdapterKind::Software {
             soft(Resource::RLIMIT_AS, size + limits.memory)?;
         }
         Ok(size)
+    }
+
+    /// Gives what comes next so many CPU seconds.
+    pub fn give_time(&self, seconds: u64) -> io::Result<()> {
+        let usage = getrusage(UsageWho::RUSAGE_SELF)?;
+        let used = (usage.user_time().tv_sec() + usage.system_time().tv_sec()).unsigned_abs();
+        Ok(soft(Resource::RLIMIT_CPU, used + 1 + seconds)?)
     }
 
     /// The address space in use.

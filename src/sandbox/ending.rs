@@ -5,6 +5,7 @@
 //! | deadline, CPU time | the file's | `stopped` |
 //! | memory, stack, crash, forbidden system call | the file's, once a worker that has met no other file ends so too | `stopped` |
 //! | killed, suspended or starved from outside; unreadable answer; our own exit | ours | another worker, at last a fault |
+//! | any of these once the file has run | ours | a fault, after another worker where that may end otherwise |
 
 use crate::fault::Fault;
 use crate::language::Text;
@@ -38,6 +39,8 @@ pub(super) enum Ending {
     Exited(i32),
     /// Its answer cannot be read.
     Garbled(String),
+    /// One of the file's endings, after all that was handed in had run: our own judgement ended so.
+    Judging(Box<Ending>),
 }
 
 /// Whose doing an ending is.
@@ -87,8 +90,23 @@ impl Ending {
         match self {
             Self::Deadline | Self::Cpu => Blame::File,
             Self::Memory | Self::Stack | Self::Forbidden | Self::Crash(_) => Blame::FileIfRepeated,
-            Self::Killed(_) | Self::Suspended | Self::Starved | Self::Exited(_) | Self::Garbled(_) => Blame::Ours,
+            Self::Killed(_)
+            | Self::Suspended
+            | Self::Starved
+            | Self::Exited(_)
+            | Self::Garbled(_)
+            | Self::Judging(_) => Blame::Ours,
         }
+    }
+
+    /// The same once all that was handed in has run: from there on nothing is the file's doing.
+    pub fn while_judging(self) -> Self {
+        if self.blame() == Blame::Ours { self } else { Self::Judging(Box::new(self)) }
+    }
+
+    /// Whether another worker would end so too.
+    pub fn is_for_good(&self) -> bool {
+        matches!(self, Self::Judging(ending) if ending.blame() == Blame::File)
     }
 
     /// What a student is told.
@@ -139,6 +157,10 @@ impl Ending {
                 "the machine is too busy: the grading process was given no processor".into(),
                 "マシンの負荷が高く、採点プロセスに CPU が割り当てられませんでした".into(),
             ),
+            Self::Judging(how) => (
+                format!("the shader ran, but ggrade could not judge what it draws ({how:?})"),
+                format!("シェーダの実行は終わりましたが、ggrade が結果を採点できませんでした ({how:?})"),
+            ),
             Self::Garbled(detail) => (
                 format!("the grading process gave an unreadable answer: {detail}"),
                 format!("採点プロセスの応答を読み取れません: {detail}"),
@@ -148,7 +170,14 @@ impl Ending {
                 format!("採点プロセスが応答なしに終了しました: {other:?}"),
             ),
         };
-        Fault::new(Text::new(en, ja)).remedy(Text::new(
+        let fault = Fault::new(Text::new(en, ja));
+        if self.is_for_good() {
+            return fault.remedy(Text::new(
+                "That is a mistake of ggrade: please send the file to those who make it.",
+                "ggrade の不具合です。このファイルを添えて開発者に連絡してください。",
+            ));
+        }
+        fault.remedy(Text::new(
             "Grade the file again when the machine has memory and processors to spare.",
             "メモリと CPU に余裕があるときに、もう一度採点してください。",
         ))
@@ -210,6 +239,20 @@ mod tests {
             assert_eq!(ending.blame(), Blame::Ours);
         }
         assert_eq!(Ending::of(exit(3), "").blame(), Blame::Ours);
+    }
+
+    #[test]
+    fn once_it_has_run_nothing_is_the_files() {
+        for file in [Ending::Deadline, Ending::Cpu, Ending::Memory, Ending::Stack, Ending::Crash("SIGSEGV".into())] {
+            let ending = file.clone().while_judging();
+            assert_eq!((ending.blame(), ending.is_for_good()), (Blame::Ours, file.blame() == Blame::File), "{file:?}");
+        }
+        let ours = Ending::Killed("SIGKILL".into());
+        assert_eq!((ours.clone().while_judging(), ours.is_for_good()), (ours, false));
+    }
+
+    #[test]
+    fn other_exits_are_ours() {
         assert_eq!(Ending::of(exit(101), "panicked").blame(), Blame::Ours);
     }
 }

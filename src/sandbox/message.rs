@@ -68,22 +68,20 @@ fn lengths(start: &[u8], longest: Longest) -> io::Result<Option<(usize, usize)>>
     Ok(Some((head, body)))
 }
 
-/// The message in `bytes`, once it is there in full, and takes it out of there; bytes beyond it are an error, for nobody asked
-/// for them.
+/// The message that `bytes` begin with, once it is there in full, and takes it out of there.
 pub(super) fn decode<T: DeserializeOwned>(
     bytes: &mut Vec<u8>,
     longest: Longest,
 ) -> io::Result<Option<(T, MessageBody)>> {
     let Some((head, body)) = lengths(bytes, longest)? else { return Ok(None) };
     let start = LENGTHS + head;
-    match bytes.len().cmp(&(start + body)) {
-        std::cmp::Ordering::Less => Ok(None),
-        std::cmp::Ordering::Equal => {
-            let head = serde_json::from_slice(&bytes[LENGTHS..start])?;
-            Ok(Some((head, MessageBody { message: std::mem::take(bytes), start })))
-        }
-        std::cmp::Ordering::Greater => Err(io::Error::new(io::ErrorKind::InvalidData, "more than one answer")),
+    if bytes.len() < start + body {
+        return Ok(None);
     }
+    let rest = bytes.split_off(start + body);
+    let message = std::mem::replace(bytes, rest);
+    let head = serde_json::from_slice(&message[LENGTHS..start])?;
+    Ok(Some((head, MessageBody { message, start })))
 }
 
 /// Writes one message, whose body of so many bytes `body` writes.
@@ -146,9 +144,11 @@ mod tests {
     }
 
     #[test]
-    fn bytes_after_the_message_are_refused() {
-        let mut message = encode(&"head", b"body").unwrap();
-        message.push(0);
-        assert!(decode::<String>(&mut message, LONGEST).is_err());
+    fn a_message_leaves_what_follows_it() {
+        let mut bytes = [encode(&"first", b"body").unwrap(), encode(&"second", b"").unwrap(), vec![0]].concat();
+        let (first, body) = decode::<String>(&mut bytes, LONGEST).unwrap().unwrap();
+        assert_eq!((first.as_str(), &*body), ("first", b"body".as_slice()));
+        let (second, body) = decode::<String>(&mut bytes, LONGEST).unwrap().unwrap();
+        assert_eq!((second.as_str(), &*body, bytes), ("second", b"".as_slice(), vec![0]));
     }
 }

@@ -7,7 +7,7 @@ use super::ending::{Blame, Ending};
 use super::protection::Protection;
 use super::protocol::{Answered, GradingRequest, Reply};
 use super::roster::{Roster, WorkerKind, WorkerPermit};
-use super::{Policy, Settings, memory};
+use super::{JUDGING, Policy, Settings, memory};
 use crate::diagnostic::{Diagnostic, DiagnosticStage};
 use crate::fault::Fault;
 use crate::grade::Order;
@@ -195,7 +195,7 @@ impl Grading<'_> {
         // Confirming a crash takes what it left of the deadline: no file has twice the time.
         let spent = self.blamed.as_ref().map_or(Duration::ZERO, |(_, began)| began.elapsed());
         let deadline = self.deadline().saturating_sub(spent);
-        let answered = worker.grade(&request, hand_in, frames_bytes, deadline);
+        let answered = worker.grade(&request, hand_in, frames_bytes, [deadline, JUDGING * assignment.time]);
         let environment = worker.environment.clone();
         let ending = match answered {
             Ok((reply, body)) => return self.answered(worker, was_fresh, reply, &body),
@@ -210,7 +210,7 @@ impl Grading<'_> {
             Answered::Graded { report, frames } => {
                 (*report, self.pool.drawings.of(&self.submission.assignment.scene, &frames, body))
             }
-            Answered::Loaded | Answered::Checked { .. } | Answered::Refused(_) => {
+            Answered::Loaded | Answered::Drawn | Answered::Checked { .. } | Answered::Refused(_) => {
                 self.place.give_up(worker);
                 return Ok(Attempted::NotDone(Ending::Garbled("the answer to another question".into()).fault()));
             }
@@ -258,6 +258,7 @@ impl Grading<'_> {
                 self.blamed = Some((ending, began));
                 return Ok(Attempted::NotDone(fault));
             }
+            Blame::Ours if ending.is_for_good() => return Err(ending.fault()),
             Blame::Ours => return Ok(Attempted::NotDone(ending.fault())),
         }
         let (ending, began) = match (ending, self.blamed.take()) {

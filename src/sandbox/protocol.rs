@@ -133,6 +133,8 @@ pub(super) struct Reply {
 pub(super) enum Answered {
     /// The assignment is read; the body is its packed pictures, where they are wanted.
     Loaded,
+    /// What was handed in has run; the answer follows.
+    Drawn,
     Graded {
         report: Box<Report>,
         /// The part of each frame that is not background.

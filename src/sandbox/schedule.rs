@@ -12,7 +12,7 @@ const TICK: Duration = Duration::from_millis(10);
 const LEAST_SHARE: f64 = 0.75;
 
 /// CPU time of all threads of the process so far.
-pub(super) fn cpu_time(process: u32) -> Option<Duration> {
+fn cpu_time(process: u32) -> Option<Duration> {
     let stat = std::fs::read_to_string(format!("/proc/{process}/stat")).ok()?;
     let mut fields = after_name(&stat)?.split_ascii_whitespace();
     // `man 5 proc`: utime and stime are fields 14 and 15, the state after the name is field 3.
@@ -27,31 +27,55 @@ const PATIENCE: u32 = 5;
 /// At least so long a worker is waited for once more.
 const PAUSE: Duration = Duration::from_millis(20);
 
-/// Until when to wait for a worker that has not answered within `deadline` from `begin` on: until it has had as much of a
-/// processor. That others keep the machine busy is not the file's doing. None where it has had that, or does not want it.
-pub(super) fn later(process: u32, before: Option<Duration>, begin: Instant, deadline: Duration) -> Option<Instant> {
-    let states = thread_states(process);
-    let wants_processor = states.iter().any(|state| matches!(state, 'R' | 'D'));
-    if !wants_processor || begin.elapsed() >= deadline * PATIENCE {
-        return None;
-    }
-    let used = cpu_time(process)?.saturating_sub(before?);
-    let left = deadline.checked_sub(used).filter(|left| !left.is_zero())?;
-    Some(Instant::now() + left.max(PAUSE))
+/// The time that a process has for one thing.
+#[derive(Debug)]
+pub(super) struct Allowance {
+    process: u32,
+    /// Its CPU time at the beginning.
+    before: Option<Duration>,
+    begin: Instant,
+    deadline: Duration,
 }
 
-/// What a worker that has not answered within `deadline` has been doing; `before` is its CPU time at the request.
-pub(super) fn of_late(process: u32, before: Option<Duration>, deadline: Duration) -> Ending {
-    let states = thread_states(process);
-    if states.iter().any(|state| matches!(state, 'T' | 't')) {
-        return Ending::Suspended;
+impl Allowance {
+    /// Begins now.
+    pub fn new(process: u32, deadline: Duration) -> Self {
+        Self { process, before: cpu_time(process), begin: Instant::now(), deadline }
     }
-    let used = cpu_time(process).zip(before).map(|(now, before)| now.saturating_sub(before));
-    let wants_processor = states.iter().any(|state| matches!(state, 'R' | 'D'));
-    match used {
-        // A worker that sleeps of its own accord has hung itself up: that is the file's doing.
-        Some(used) if wants_processor && used < deadline.mul_f64(LEAST_SHARE) => Ending::Starved,
-        _ => Ending::Deadline,
+
+    /// When it ends on an idle machine.
+    pub fn end(&self) -> Instant {
+        self.begin + self.deadline
+    }
+
+    /// Until when to wait for a worker that has not answered by the end: until it has had as much of a processor. That others keep
+    /// the machine busy is not the file's doing. None where it has had that, or does not want it.
+    pub fn later(&self) -> Option<Instant> {
+        let states = thread_states(self.process);
+        let wants_processor = states.iter().any(|state| matches!(state, 'R' | 'D'));
+        if !wants_processor || self.begin.elapsed() >= self.deadline * PATIENCE {
+            return None;
+        }
+        let left = self.deadline.checked_sub(self.used()?).filter(|left| !left.is_zero())?;
+        Some(Instant::now() + left.max(PAUSE))
+    }
+
+    /// What a worker that has not answered has been doing.
+    pub fn of_late(&self) -> Ending {
+        let states = thread_states(self.process);
+        if states.iter().any(|state| matches!(state, 'T' | 't')) {
+            return Ending::Suspended;
+        }
+        let wants_processor = states.iter().any(|state| matches!(state, 'R' | 'D'));
+        match self.used() {
+            // A worker that sleeps of its own accord has hung itself up: that is the file's doing.
+            Some(used) if wants_processor && used < self.deadline.mul_f64(LEAST_SHARE) => Ending::Starved,
+            _ => Ending::Deadline,
+        }
+    }
+
+    fn used(&self) -> Option<Duration> {
+        Some(cpu_time(self.process)?.saturating_sub(self.before?))
     }
 }
 
@@ -93,7 +117,7 @@ mod tests {
         while thread_states(sleeper.id()) != ['S'] {
             std::thread::sleep(Duration::from_millis(1));
         }
-        let late = of_late(sleeper.id(), Some(Duration::ZERO), Duration::from_secs(2));
+        let late = Allowance::new(sleeper.id(), Duration::from_secs(2)).of_late();
         sleeper.kill().unwrap();
         sleeper.wait().unwrap();
         assert_eq!(late, Ending::Deadline);
@@ -104,10 +128,11 @@ mod tests {
         // This process is at work: its own thread runs.
         let (id, now, second) = (std::process::id(), Instant::now(), Duration::from_secs(1));
         let used = cpu_time(id).unwrap();
-        assert!(later(id, Some(used), now, second * 1000).is_some(), "it has had none of it");
-        assert_eq!(later(id, Some(Duration::ZERO), now, used.min(TICK / 2)), None, "it has had all of it");
+        let of = |before, begin, deadline| Allowance { process: id, before: Some(before), begin, deadline };
+        assert!(of(used, now, second * 1000).later().is_some(), "it has had none of it");
+        assert_eq!(of(Duration::ZERO, now, used.min(TICK / 2)).later(), None, "it has had all of it");
         let long_ago = now.checked_sub(second * 10).unwrap();
-        assert_eq!(later(id, Some(used), long_ago, second), None, "nobody waits for ever");
+        assert_eq!(of(used, long_ago, second).later(), None, "nobody waits for ever");
     }
 
     #[test]

@@ -6,7 +6,7 @@ use super::message::{receive, send};
 use super::preflight::{self, IntrusionAttempt};
 use super::protection::{Layer, Protection};
 use super::protocol::{Answered, Demand, FileHead, GradingRequest, Hello, Load, REQUEST, Reply};
-use super::{WorkerLimits, check, syscalls};
+use super::{JUDGING, WorkerLimits, check, syscalls};
 use crate::expected::{self, Pack};
 use crate::fault::Fault;
 use crate::grade::{self, Graded, Grader, Order};
@@ -173,10 +173,17 @@ impl ReadyWorker {
         let unread = || Fault::new(Text::verbatim("the assignment was not read"));
         let hand_in = request.hand_in(body)?;
         let grader = self.graders.get_mut(&request.assignment).ok_or_else(unread);
-        let graded = grader.and_then(|grader| grader.grade(&hand_in, request.order));
-        let spent = self.meter.size()? > self.size + self.job.limits.memory;
-        let reply = |outcome| Reply { id: request.id, spent, outcome };
-        let output = &mut self.output;
+        let (output, meter) = (&mut self.output, &self.meter);
+        let reply = |spent, outcome| Reply { id: request.id, spent, outcome };
+        let mut told = Ok(());
+        let mut drawn = || {
+            let time = meter.give_time(JUDGING.as_secs().saturating_mul(u64::from(time)));
+            told = time.and_then(|()| send(output, &reply(false, Answered::Drawn), 0, |_| Ok(())));
+        };
+        let graded = grader.and_then(|grader| grader.grade_in_two(&hand_in, request.order, &mut drawn));
+        told?;
+        let spent = meter.size()? > self.size + self.job.limits.memory;
+        let reply = |outcome| reply(spent, outcome);
         let Graded { report, frames } = match graded {
             Ok(graded) => graded,
             Err(fault) => return send(output, &reply(Answered::Failed(fault)), 0, |_| Ok(())),

@@ -87,6 +87,20 @@ fn a_crash_is_the_files_when_it_happens_twice() {
 }
 
 #[test]
+fn once_the_file_has_run_no_ending_is_its_own() {
+    let _alone = alone();
+    let drawn = say(r#"{"id":1,"spent":false,"outcome":"Drawn"}"#);
+    // What takes long takes as long in another worker. A crash may come of an earlier file.
+    for (ending, attempts) in [("sleep 2; kill -XCPU $$", 1), ("kill -SEGV $$", 3)] {
+        let judging = Impostor::new(&format!("hello \"$@\"; head -c 1 >/dev/null; {drawn}; note; {ending}"));
+        let settings = Settings { deadline: Duration::from_secs(1), ..judging.settings() };
+        let fault = grade(&Pool::start(settings, 1).unwrap(), &honest()).unwrap_err();
+        assert!(fault.message.en.contains("the shader ran"), "{ending}: {fault}");
+        assert_eq!(judging.notes(), attempts, "{ending}");
+    }
+}
+
+#[test]
 fn one_crash_alone_costs_the_file_nothing() {
     let _alone = alone();
     for signal in ["SEGV", "KILL", "STOP"] {
