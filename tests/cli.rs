@@ -4,6 +4,8 @@
 mod assignment;
 #[path = "cli/authoring.rs"]
 mod authoring;
+#[path = "cli/blocks.rs"]
+mod blocks;
 #[path = "cli/folders.rs"]
 mod folders;
 #[path = "cli/manual.rs"]
@@ -192,7 +194,7 @@ fn a_file_that_is_not_there_ends_with_4() {
         .code(4)
         .stdout("")
         .stderr(predicate::str::contains("/nonexistent/ggsample06.vert"));
-    ggrade().args(["grade", "/"]).assert().code(4);
+    ggrade().arg("grade").arg(tempfile::tempdir().unwrap().path()).assert().code(4);
 }
 
 #[test]

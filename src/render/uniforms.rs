@@ -37,6 +37,13 @@ fn set(members: &HashMap<&str, &UniformMember>, bytes: &mut [u8], path: &str, ki
             }
         }
         _ => {
+            // The columns of a matrix of two rows lie in an array.
+            if matches!(kind, Type::Matrix(..))
+                && !members.contains_key(path)
+                && let Some((column, count)) = kind.element()
+            {
+                return set(members, bytes, path, &column.array(count), numbers);
+            }
             // An array without an index is its first element.
             let member = members.get(path).copied().or_else(|| members.get(format!("{path}[0]").as_str()).copied());
             if let Some(place) = member.and_then(|member| Some((member, bytes.get_mut(member.offset as usize..)?))) {

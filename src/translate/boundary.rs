@@ -69,28 +69,25 @@ fn error(input: &StageVariable, outputs: &[StageVariable], source: &Source, vers
             format!("`{name}` はここでは {} 型ですが、頂点シェーダが出力するのは {} 型です。", input.ty, output.ty),
         ));
     }
-    let differs = version < FREE_INTERPOLATION && output.qualifiers != input.qualifiers;
-    let of = |attribute: &StageVariable| {
-        let interpolation = match attribute.qualifiers.interpolation {
-            InputInterpolation::Smooth => "",
-            InputInterpolation::NoPerspective => "noperspective",
-            InputInterpolation::Flat => "flat",
-        };
-        let centroid = if attribute.qualifiers.centroid { "centroid" } else { "" };
-        let words: Vec<&str> = [interpolation, centroid].into_iter().filter(|word| !word.is_empty()).collect();
-        if words.is_empty() { "smooth".to_owned() } else { words.join(" ") }
+    // `centroid` on one side alone is linked, by Mesa at least.
+    let of = |attribute: &StageVariable| attribute.qualifiers.interpolation;
+    let differs = version < FREE_INTERPOLATION && of(output) != of(input);
+    let word = |attribute: &StageVariable| match of(attribute) {
+        InputInterpolation::Smooth => "smooth",
+        InputInterpolation::NoPerspective => "noperspective",
+        InputInterpolation::Flat => "flat",
     };
     differs.then(|| {
         at(Text::new(
             format!(
                 "`{name}` is `{}` here and `{}` in the vertex shader; before GLSL 4.40 drivers refuse to link the two.",
-                of(input),
-                of(output)
+                word(input),
+                word(output)
             ),
             format!(
                 "`{name}` はここでは `{}`、頂点シェーダでは `{}` です。GLSL 4.40 より前ではドライバがリンクを拒否します。",
-                of(input),
-                of(output)
+                word(input),
+                word(output)
             ),
         ))
     })?

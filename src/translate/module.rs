@@ -99,6 +99,9 @@ impl Shader {
     }
 }
 
+/// The input that every vertex has beside those of the homework: its place in its mesh.
+pub const VERTEX_NUMBER: &str = "gl_VertexID";
+
 /// How a stage is built.
 #[derive(Clone, Debug)]
 pub(super) struct Built {
@@ -140,7 +143,7 @@ pub(super) fn build(
             entry::leave_unset(&mut module, &inputs);
             let is_fed = |part: &AttributePart| {
                 let name = &part.attribute.name;
-                interface.inputs.iter().any(|input| input.name == *name)
+                name == VERTEX_NUMBER || interface.inputs.iter().any(|input| input.name == *name)
             };
             inputs.retain(is_fed);
             if let Some(wanted) = &how.outputs {
@@ -183,6 +186,7 @@ pub(super) fn build(
 fn refusal(unworkable: Unworkable) -> TranslationRefusal {
     match unworkable {
         Unworkable::Damaged => damaged(unworkable).into(),
+        Unworkable::FromTheTop => unsupported("`layout(origin_upper_left)`").into(),
         Unworkable::Cases(line) => gate::too_many_cases(line),
     }
 }

@@ -1,5 +1,6 @@
 //! What the compiler wrote, made into what naga's front end takes, with the same meaning.
 
+mod built_ins;
 pub(super) mod code;
 mod declared;
 mod globals;
@@ -50,6 +51,8 @@ pub(super) struct Reworked {
 pub(super) enum Unworkable {
     /// They are damaged.
     Damaged,
+    /// They count the window's rows from the top.
+    FromTheTop,
     /// The cases of the `switch` on this line, each with all that it runs into, grow beyond reason.
     Cases(Option<u32>),
 }
@@ -85,6 +88,9 @@ pub(super) struct How<'a> {
 pub(super) fn rework(words: &[u32], how: How<'_>) -> Result<Reworked, Unworkable> {
     let mut code = SpirvCode::parse(words).ok_or(Unworkable::Damaged)?;
     let samplers = if how.has_textures { textures::SamplerTypes::take(&mut code) } else { Default::default() };
+    if code.counts_from_the_top() {
+        return Err(Unworkable::FromTheTop);
+    }
     let is_fragment = code.is_fragment();
     let (uniforms, io) = globals::rework(&mut code, how, &samplers);
     undefined(&mut code);

@@ -182,17 +182,23 @@ impl Driver {
                     self.set_value(&location, *kind, numbers);
                     continue;
                 }
-                let Some(index) = active.iter().position(|own| own == path) else { continue };
+                let Some((index, element)) = active_element(&active, path) else { continue };
                 let of = |what| gl.get_active_uniforms_parameter(name, &[index as u32], what)[0];
                 let (block, offset, stride) =
                     (of(glow::UNIFORM_BLOCK_INDEX), of(glow::UNIFORM_OFFSET), of(glow::UNIFORM_MATRIX_STRIDE));
                 let (Ok(block), Ok(offset)) = (usize::try_from(block), usize::try_from(offset)) else { continue };
+                let offset = offset + element * usize::try_from(of(glow::UNIFORM_ARRAY_STRIDE)).unwrap_or_default();
+                let is_row_major = of(glow::UNIFORM_IS_ROW_MAJOR) != 0;
                 let size = gl.get_active_uniform_block_parameter_i32(name, block as u32, glow::UNIFORM_BLOCK_DATA_SIZE);
                 blocks.resize_with(blocks.len().max(block + 1), Vec::new);
                 blocks[block].resize(usize::try_from(size).expect("a size"), 0);
                 let (rows, stride) = match kind {
                     ValueKind::Matrix(_, rows) => (usize::from(*rows), usize::try_from(stride).expect("a stride")),
                     _ => (numbers.len(), 0),
+                };
+                let (rows, numbers) = match is_row_major {
+                    true => (numbers.len() / rows, transposed(numbers, rows)),
+                    false => (rows, numbers.clone()),
                 };
                 for (column, numbers) in numbers.chunks(rows).enumerate() {
                     let bytes = bytes(*kind, numbers);
@@ -248,6 +254,22 @@ impl Driver {
             }
         }
     }
+}
+
+/// The place of a path among the names that the driver lists, and the number of its element: of an array of a basic type the
+/// driver lists the first element alone.
+fn active_element(active: &[String], path: &str) -> Option<(usize, usize)> {
+    if let Some(index) = active.iter().position(|own| own == path) {
+        return Some((index, 0));
+    }
+    let (array, element) = path.strip_suffix(']')?.rsplit_once('[')?;
+    let first = format!("{array}[0]");
+    Some((active.iter().position(|own| *own == first)?, element.parse().ok()?))
+}
+
+/// Columns of so many rows as rows.
+fn transposed(numbers: &[f64], rows: usize) -> Vec<f64> {
+    (0..rows).flat_map(|row| numbers.iter().skip(row).step_by(rows).copied()).collect()
 }
 
 fn components(kind: ValueKind) -> usize {

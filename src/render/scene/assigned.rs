@@ -1,6 +1,7 @@
 //! The scene of an assignment: its frames, and what is run for its probes.
 
 use super::{DrawCall, DrawState, RenderScene};
+use crate::translate::VERTEX_NUMBER;
 use reference::assignment::{Input, Stage};
 use reference::interpreter::Type;
 use reference::probes::{ProbeSet, Spot};
@@ -39,7 +40,9 @@ fn probed(assignment: &Assignment, sets: &[&ProbeSet]) -> RenderScene {
         let uniforms = &set.groups[place].uniforms;
         let spots: Vec<&Spot> = own.iter().filter_map(|probe| probe.spot.as_deref()).collect();
         if spots.is_empty() {
-            let vertices: Vec<Vertex> = own.iter().map(|probe| probe.vertex).collect();
+            // Numbers of their own: what is looked up by the number of a vertex is not what is asked for.
+            let numbered = own.iter().zip(0..).map(|(probe, number)| Vertex { number, ..probe.vertex });
+            let vertices: Vec<Vertex> = numbered.collect();
             scene.probes.push(DrawCall::of(assignment, uniforms, &vertices));
             continue;
         }
@@ -105,6 +108,9 @@ impl DrawCall {
             let numbers = values.flat_map(|value| value.numbers().to_vec()).collect();
             (input.name.clone(), Values { kind: input.kind.clone(), numbers })
         };
-        Self { uniforms, attributes: interface.inputs.iter().map(attribute).collect(), ..DrawCall::default() }
+        let numbers = vertices.iter().map(|vertex| f64::from(vertex.number)).collect();
+        let number = (VERTEX_NUMBER.to_owned(), Values { kind: Type::INT, numbers });
+        let attributes = interface.inputs.iter().map(attribute).chain([number]).collect();
+        Self { uniforms, attributes, ..DrawCall::default() }
     }
 }

@@ -109,6 +109,12 @@ impl SpirvCode {
         self.heads.iter().any(|head| head.opcode == op::ENTRY_POINT && head.operands[0] == 4)
     }
 
+    /// Whether a fragment stage asks for window coordinates with the first row at the top.
+    pub fn counts_from_the_top(&self) -> bool {
+        let is_top = |head: &SpirvInstruction| head.operands.get(1) == Some(&op::execution_mode::ORIGIN_UPPER_LEFT);
+        self.heads.iter().any(|head| head.opcode == op::EXECUTION_MODE && is_top(head))
+    }
+
     /// How many words the functions have.
     pub fn function_words(&self) -> usize {
         self.functions.iter().map(|instruction| instruction.operands.len() + 1).sum()

@@ -1,13 +1,13 @@
 //! Global variables as wgpu takes them: uniforms that are set in one block, all others private.
 
-use super::How;
 use super::code::{SpirvCode, SpirvInstruction};
 use super::declared::{DeclaredUniform, declare, element, fits_block, has_size, short_name};
 use super::images;
 use super::io::{self, Io};
-use super::memory::{MemoryTypes, place_members};
-use super::op::{self, built_in, decoration, execution_mode, storage};
+use super::memory::{MemoryTypes, forget_places, place_members};
+use super::op::{self, decoration, storage};
 use super::textures::SamplerTypes;
+use super::{How, built_ins};
 use std::collections::HashMap;
 
 /// Name of the block of OpenGL's default-block uniforms.
@@ -38,6 +38,8 @@ pub struct UniformVariables {
 enum Destination {
     /// Member of the default block, by its number.
     Member(u32),
+    /// Where it is: a block of the student's own that the program sets.
+    Block,
     /// Private, with what is its initial value anyhow.
     Private,
 }
@@ -47,14 +49,21 @@ enum Destination {
 pub(super) fn rework(code: &mut SpirvCode, how: How<'_>, samplers: &SamplerTypes) -> (UniformVariables, Vec<Io>) {
     let How { set, is_split, .. } = how;
     images::plain_types(code);
-    uncaught(code);
-    let io = if is_split { io::find(code) } else { Vec::new() };
+    built_ins::uncaught(code);
+    let io = if is_split {
+        built_ins::number_as_input(code);
+        io::find(code)
+    } else {
+        Vec::new()
+    };
     let names = code.names();
-    let mut plain = draw_parameters(code);
+    let sample = built_ins::sample_position(code);
+    let mut plain = built_ins::draw_parameters(code);
     plain.extend(io.iter().map(|(id, _)| *id));
     let variables: Vec<SpirvInstruction> = code.globals.iter().filter(|i| i.opcode == op::VARIABLE).cloned().collect();
     let mut places = HashMap::new();
     let mut members = Vec::new();
+    let mut blocks = Vec::new();
     let mut uniforms = UniformVariables::default();
     let mut initials = HashMap::new();
     for variable in &variables {
@@ -62,6 +71,9 @@ pub(super) fn rework(code: &mut SpirvCode, how: How<'_>, samplers: &SamplerTypes
         let Some(pointee) = pointee(code, pointer) else { continue };
         if plain.contains(&id) {
             places.insert(id, (Destination::Private, pointee));
+        }
+        if sample == Some(id) {
+            initials.insert(id, floats(code, pointee, &[0.5, 0.5]));
         }
         if !matches!(class, storage::UNIFORM_CONSTANT | storage::UNIFORM) || !has_size(code, pointee) {
             continue;
@@ -75,20 +87,25 @@ pub(super) fn rework(code: &mut SpirvCode, how: How<'_>, samplers: &SamplerTypes
             members.push((name, pointee));
         } else if is_block && is_set_block(code, set, pointee, &name) {
             declare(code, samplers, pointee, name, true, &mut uniforms.declared);
+            places.insert(id, (Destination::Block, pointee));
+            blocks.push(pointee);
         } else if name == DEPTH_RANGE {
             places.insert(id, (Destination::Private, pointee));
-            initials.insert(id, depth_range(code, pointee));
+            // `near`, `far` and `diff` where a program sets nothing.
+            initials.insert(id, floats(code, pointee, &[0.0, 1.0, 1.0]));
         } else {
             places.insert(id, (Destination::Private, pointee));
             uniforms.unset.push(Unset { name, ty: if is_block { "block" } else { short_name(code, pointee) } });
         }
     }
     let mut memory = MemoryTypes::default();
+    blocks.iter().for_each(|ty| forget_places(code, *ty));
+    blocks.iter().for_each(|ty| _ = memory.of(code, *ty));
     let block = (!members.is_empty()).then(|| default_block(code, &mut memory, &members));
     for variable in &variables {
         if let Some((place, pointee)) = places.get(&variable.operands[1]) {
             let initial = initials.get(&variable.operands[1]).or(variable.operands.get(3)).copied();
-            replace(code, variable, place, *pointee, initial);
+            replace(code, &memory, variable, place, *pointee, initial);
         }
     }
     uses(code, &memory, &places, block);
@@ -103,58 +120,12 @@ fn is_set_block(code: &SpirvCode, set: &[&str], ty: u32, name: &str) -> bool {
     set.contains(&name) || io::member_names(code, ty).iter().any(|(_, member)| set.contains(&member.as_str()))
 }
 
-/// Takes away what says which outputs transform feedback catches: the program catches none.
-fn uncaught(code: &mut SpirvCode) {
-    use decoration::{OFFSET, XFB_BUFFER, XFB_STRIDE};
-    code.heads.retain(|head| {
-        !matches!(
-            (head.opcode, &head.operands[..]),
-            (op::EXECUTION_MODE, [_, execution_mode::XFB, ..])
-                | (op::DECORATE, [_, OFFSET | XFB_BUFFER | XFB_STRIDE, ..])
-                | (op::MEMBER_DECORATE, [_, _, XFB_BUFFER | XFB_STRIDE, ..])
-        )
-    });
-}
-
-/// The variables of `gl_BaseVertex`, `gl_BaseInstance` and `gl_DrawID`, zero in a plain draw; renames
-/// OpenGL's built-ins to those that naga knows.
-fn draw_parameters(code: &mut SpirvCode) -> Vec<u32> {
-    let mut found = Vec::new();
-    let is_fragment = code.is_fragment();
-    for instruction in code.heads.iter_mut().filter(|i| i.opcode == op::DECORATE) {
-        let [id, decoration::BUILT_IN, which] = &mut instruction.operands[..] else { continue };
-        match *which {
-            built_in::VERTEX_ID => *which = built_in::VERTEX_INDEX,
-            built_in::INSTANCE_ID => *which = built_in::INSTANCE_INDEX,
-            built_in::BASE_VERTEX..=built_in::DRAW_INDEX => found.push(*id),
-            // Of fragments of triangles that are drawn to one layer with one sample a pixel.
-            built_in::LAYER | built_in::VIEWPORT_INDEX | built_in::POINT_COORD => found.push(*id),
-            built_in::SAMPLE_ID..=built_in::SAMPLE_MASK | built_in::HELPER_INVOCATION => found.push(*id),
-            built_in::CLIP_DISTANCE | built_in::CULL_DISTANCE if is_fragment => found.push(*id),
-            _ => {}
-        }
-    }
-    code.heads.retain(|i| i.opcode != op::EXTENSION);
-    // naga knows one origin of window coordinates; a fragment stage that reads none is the same with either.
-    for mode in code.heads.iter_mut().filter(|i| i.opcode == op::EXECUTION_MODE) {
-        if let [_, mode @ execution_mode::ORIGIN_LOWER_LEFT] = &mut mode.operands[..] {
-            *mode = execution_mode::ORIGIN_UPPER_LEFT;
-        }
-    }
-    for entry in code.heads.iter_mut().filter(|i| i.opcode == op::ENTRY_POINT) {
-        let name =
-            2 + entry.operands[2..].iter().position(|word| word.to_le_bytes()[3] == 0).map_or(0, |last| last + 1);
-        let interface = entry.operands.split_off(name.min(entry.operands.len()));
-        entry.operands.extend(interface.into_iter().filter(|id| !found.contains(id)));
-    }
-    found
-}
-
-/// `near`, `far` and `diff` as they are where a program sets nothing: 0, 1, 1.
-fn depth_range(code: &mut SpirvCode, ty: u32) -> u32 {
+/// A vector or structure of these numbers.
+fn floats(code: &mut SpirvCode, ty: u32, numbers: &[f32]) -> u32 {
     let float = code.ty(op::TYPE_FLOAT, &[32]);
-    let [near, far] = [0.0f32, 1.0].map(|depth| code.constant(op::CONSTANT, float, &[depth.to_bits()]));
-    code.constant(op::CONSTANT_COMPOSITE, ty, &[near, far, far])
+    let parts: Vec<u32> =
+        numbers.iter().map(|number| code.constant(op::CONSTANT, float, &[number.to_bits()])).collect();
+    code.constant(op::CONSTANT_COMPOSITE, ty, &parts)
 }
 
 pub(super) fn pointee(code: &SpirvCode, pointer: u32) -> Option<u32> {
@@ -181,8 +152,21 @@ fn default_block(code: &mut SpirvCode, memory: &mut MemoryTypes, members: &[(Str
 }
 
 /// Takes away a variable that becomes a member, and declares one that becomes private anew.
-fn replace(code: &mut SpirvCode, variable: &SpirvInstruction, place: &Destination, pointee: u32, initial: Option<u32>) {
+fn replace(
+    code: &mut SpirvCode,
+    memory: &MemoryTypes,
+    variable: &SpirvInstruction,
+    place: &Destination,
+    pointee: u32,
+    initial: Option<u32>,
+) {
     let id = variable.operands[1];
+    if matches!(place, Destination::Block) {
+        let pointer = code.ty(op::TYPE_POINTER, &[storage::UNIFORM, memory.known(pointee)]);
+        code.globals.retain(|i| i.opcode != op::VARIABLE || i.operands[1] != id);
+        code.globals.push(SpirvInstruction::new(op::VARIABLE, vec![pointer, id, storage::UNIFORM]));
+        return;
+    }
     code.undecorate(id);
     code.globals.retain(|i| i.opcode != op::VARIABLE || i.operands[1] != id);
     if matches!(place, Destination::Member(_)) {

@@ -1,6 +1,7 @@
 //! How values lie in a block of uniforms: arrays and structures by the rules of std140, truth values as integers.
 //!
-//! A block holds no `bool`, so a type with one has another type in memory, and what is loaded is converted.
+//! A block holds no `bool`, so a type with one has another type in memory, and what is loaded is converted. The same goes for
+//! a matrix of two rows, whose columns lie 16 bytes apart: naga has no such matrix, and an array of columns in its place.
 
 use super::code::{SpirvCode, SpirvInstruction};
 use super::op::{self, decoration};
@@ -27,6 +28,16 @@ impl MemoryTypes {
                 same if same == operand(1) => ty,
                 component => code.ty(op::TYPE_VECTOR, &[component, operand(2)]),
             },
+            op::TYPE_MATRIX if rows(code, operand(1)) == Some(2) => {
+                let uint = code.ty(op::TYPE_INT, &[32, 0]);
+                let length = code.constant(op::CONSTANT, uint, &[operand(2)]);
+                // One of its own: the student's arrays of such columns need not lie in a block.
+                let own = code.fresh();
+                code.globals.push(SpirvInstruction::new(op::TYPE_ARRAY, vec![own, operand(1), length]));
+                let stride = stride(code, operand(1));
+                code.decorate(&[own], &[decoration::ARRAY_STRIDE, stride]);
+                own
+            }
             op::TYPE_ARRAY => self.array(code, ty, operand(1), operand(2)),
             op::TYPE_STRUCT => self.structure(code, ty, &declared.operands[1..]),
             _ => ty,
@@ -51,11 +62,16 @@ impl MemoryTypes {
         let own = if inner == members { ty } else { code.fresh() };
         if own != ty {
             code.globals.push(SpirvInstruction::new(op::TYPE_STRUCT, [&[own], &inner[..]].concat()));
-            let named = code.heads.iter().filter(|head| head.opcode == op::MEMBER_NAME && head.operands[0] == ty);
-            let names: Vec<_> = named.map(|head| [&[own], &head.operands[1..]].concat()).collect();
-            let at = code.heads.iter().position(|head| head.opcode == op::MEMBER_NAME).unwrap_or(0);
-            let names = names.into_iter().map(|operands| SpirvInstruction::new(op::MEMBER_NAME, operands));
+            let is_name = |opcode| matches!(opcode, op::NAME | op::MEMBER_NAME);
+            let named = code.heads.iter().filter(|head| is_name(head.opcode) && head.operands[0] == ty);
+            let copy = |head: &SpirvInstruction| (head.opcode, [&[own], &head.operands[1..]].concat());
+            let names: Vec<_> = named.map(copy).collect();
+            let at = code.heads.iter().position(|head| is_name(head.opcode)).unwrap_or(0);
+            let names = names.into_iter().map(|(opcode, operands)| SpirvInstruction::new(opcode, operands));
             code.heads.splice(at..at, names);
+            if is_block(code, ty) {
+                code.decorate(&[own], &[decoration::BLOCK]);
+            }
         }
         place_members(code, own, &inner);
         own
@@ -83,6 +99,7 @@ impl MemoryTypes {
                 vec![declared.operands[1]; length.unwrap_or(0) as usize]
             }
             op::TYPE_STRUCT => declared.operands[1..].to_vec(),
+            op::TYPE_MATRIX => vec![declared.operands[1]; declared.operands[2] as usize],
             _ => {
                 let zero = code.null(own);
                 out.push(SpirvInstruction { opcode: op::I_NOT_EQUAL, operands: vec![ty, id, loaded, zero], line });
@@ -107,6 +124,34 @@ impl MemoryTypes {
             line,
         });
     }
+}
+
+/// Forgets where the parts of a type lie in the student's own block: they are laid out anew, columns after columns.
+pub(super) fn forget_places(code: &mut SpirvCode, ty: u32) {
+    let Some(declared) = code.global(ty).cloned() else { return };
+    let parts = match declared.opcode {
+        op::TYPE_ARRAY => &declared.operands[1..2],
+        op::TYPE_STRUCT => &declared.operands[1..],
+        _ => return,
+    };
+    let is_block = is_block(code, ty);
+    code.undecorate(ty);
+    if is_block {
+        code.decorate(&[ty], &[decoration::BLOCK]);
+    }
+    parts.iter().for_each(|part| forget_places(code, *part));
+}
+
+/// Whether a structure is that of a block.
+fn is_block(code: &SpirvCode, ty: u32) -> bool {
+    code.heads.iter().any(|head| head.opcode == op::DECORATE && head.operands == [ty, decoration::BLOCK])
+}
+
+/// The rows of a matrix with such columns of `float`.
+fn rows(code: &SpirvCode, column: u32) -> Option<u32> {
+    let column = code.global(column)?;
+    let is_float = code.global(*column.operands.get(1)?)?.operands.get(1) == Some(&32);
+    column.operands.get(2).copied().filter(|_| is_float)
 }
 
 /// Says where the members of a structure lie in a block.

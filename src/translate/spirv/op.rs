@@ -151,6 +151,7 @@ pub mod built_in {
     pub const VIEWPORT_INDEX: u32 = 10;
     pub const POINT_COORD: u32 = 16;
     pub const SAMPLE_ID: u32 = 18;
+    pub const SAMPLE_POSITION: u32 = 19;
     pub const SAMPLE_MASK: u32 = 20;
     pub const HELPER_INVOCATION: u32 = 23;
     pub const VERTEX_ID: u32 = 5;

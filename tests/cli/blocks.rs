@@ -1,0 +1,128 @@
+//! Blocks: those of uniforms, with all that std140 lays out in ways of its own, and those that go from stage to stage.
+
+use super::folders::{Copy, MANIFEST};
+use super::{ggrade, json};
+use std::fs;
+
+/// Matrices of two rows, rows before columns, and arrays of numbers lie in blocks in ways of their own. The check holds the picture
+/// against that of real OpenGL, which lays the blocks out by itself.
+#[test]
+fn blocks_and_structures_hold_all_kinds_of_matrices_and_arrays() {
+    let declared = "uniform int tones;\nstruct Turn { mat2 by; float much; };\nuniform Turn own;\nlayout (std140) uniform Light {\n\
+         mat2 turn; float strengths[3]; layout (row_major) mat3 mixing; layout (row_major) mat2x3 tilt; mat3x2 shears[2];\n\
+         Turn turns[2];\n} light;\n";
+    let computed = "vec2 turned = light.turn * own.by * light.turns[1].by * colour.rg + light.shears[1] * colour;\n\
+         colour = light.mixing * vec3(turned, colour.b) * light.strengths[1] * own.much * light.turns[1].much;\n\
+         tint = vec4(colour + light.tilt * turned + vec3(light.turn[1], own.by[0][1]) * 0.1, 1.0)";
+    let turn = "by = [0.9, 0.1, 0.2, 0.8], much = 0.9";
+    let values = format!(
+        "\n[[uniform]]\nname = \"own\"\nvalue = {{ {turn} }}\n[[uniform]]\nname = \"Light\"\nvalue = {{ turn = [1, 0.2, 0.1, 0.7], \
+         strengths = [0.1, 0.8, 0.3], mixing = [1, 0.1, 0, 0.2, 0.9, 0, 0, 0.3, 0.8], tilt = [0.1, 0.2, 0, 0, 0.1, 0.05], \
+         shears = [[1, 2, 3, 4, 5, 6], [0, 0.1, 0.2, 0, 0.05, 0.1]], turns = [{{ {turn} }}, {{ by = [1, 0, 0.3, 1], much = 0.7 }}] }}\n"
+    );
+    let copy = Copy::of("tests/homeworks/toon")
+        .replace("starter.frag", "uniform int tones;\n", declared)
+        .replace("solution.frag", "uniform int tones;\n", declared)
+        .replace("solution.frag", "tint = vec4(colour, 1.0)", computed);
+    let manifest = fs::read_to_string(copy.path(MANIFEST)).unwrap();
+    fs::write(copy.path(MANIFEST), manifest + &values).unwrap();
+    let output = ggrade().args(["assignment", "check"]).arg(copy.folder()).args(["--lang", "en"]).output().unwrap();
+    let said = String::from_utf8_lossy(&output.stdout);
+    assert_eq!(output.status.code(), Some(0), "{said}{}", String::from_utf8_lossy(&output.stderr));
+    assert!(said.contains("ok   the solution: Correct") && !said.contains("otherwise"), "{said}");
+}
+
+const WAVING: &str = r#"
+id = "waving"
+title = { en = "Waving", ja = "波" }
+file = [
+  { name = "waving.vert", stage = "vertex", starter = "starter.vert", solution = "solution.vert" },
+  { name = "waving.frag", stage = "fragment", starter = "starter.frag", solution = "solution.frag" },
+]
+input = [{ name = "place", carries = "position" }, { name = "normal", carries = "normal" }]
+uniform = [
+  { name = "model", carries = "model" },
+  { name = "camera", carries = "view-projection" },
+  { name = "sun", value = [1, 2, 3], probe = { within = [[-1, -1, -1], [1, 1, 1]] } },
+]
+[scene]
+mesh = { grid = {} }
+turn = 6.2831853
+eye = [0, 1.6, 3]
+target = [0, 0, 0]
+up = [0, 1, 0]
+fovy = 0.8
+near = 0.1
+far = 20
+window = [160, 120]
+background = [20, 20, 30, 255]
+poses = 2
+depth_test = "less"
+[[rubric]]
+id = "shape"
+points = 30
+judges = "gl_Position"
+label = { en = "Shape", ja = "形" }
+[[rubric]]
+id = "colour"
+points = 70
+label = { en = "Colour", ja = "色" }
+"#;
+
+const VERTEX: &str = "#version 410 core
+in vec4 place;
+in vec3 normal;
+uniform mat4 model, camera;
+out Handed { vec3 facing; flat int number; mat2 turn; } handed;
+void main()
+{
+  handed.facing = transpose(inverse(mat3(model))) * normal;
+  handed.number = gl_VertexID % 3;
+  handed.turn = mat2(1.0, place.x, place.z, 1.0);
+  gl_Position = camera * model * place;
+}
+";
+
+const FRAGMENT: &str = "#version 410 core
+uniform vec3 sun;
+in Handed { vec3 facing; flat int number; mat2 turn; } own;
+out vec4 colour;
+void main()
+{
+  float lit = max(dot(normalize(own.facing), normalize(sun)), 0.0);
+  colour = vec4(lit, 0.3 * float(own.number), abs((own.turn * vec2(0.2, 0.3)).x), 1.0);
+}
+";
+
+#[test]
+fn a_block_goes_from_stage_to_stage_and_a_slip_is_named_where_it_is_written() {
+    let folder = tempfile::tempdir().unwrap();
+    let homework = folder.path().join("waving");
+    fs::create_dir(&homework).unwrap();
+    let starters =
+        [VERTEX, FRAGMENT].map(|text| text.lines().filter(|line| !line.contains("wn.") && !line.contains("ed.")));
+    let [vertex, fragment] = starters.map(|lines| lines.collect::<Vec<_>>().join("\n"));
+    let fragment = fragment.replace("void main()\n{", "void main()\n{\n  colour = vec4(1.0);");
+    let files = [
+        (MANIFEST, WAVING),
+        ("solution.vert", VERTEX),
+        ("solution.frag", FRAGMENT),
+        ("starter.vert", &vertex),
+        ("starter.frag", &fragment),
+    ];
+    files.iter().for_each(|(name, text)| fs::write(homework.join(name), text).unwrap());
+    let output = ggrade().args(["assignment", "check"]).arg(&homework).args(["--lang", "en"]).output().unwrap();
+    let said = String::from_utf8_lossy(&output.stdout);
+    assert_eq!(output.status.code(), Some(0), "{said}{}", String::from_utf8_lossy(&output.stderr));
+    assert!(said.contains("ok   real OpenGL"), "{said}");
+    // The fragment stage is as it should be, and reads what the vertex stage has wrong.
+    let wrong = VERTEX.replace("transpose(inverse(mat3(model))) * normal", "normal");
+    let [vertex, fragment] = ["waving.vert", "waving.frag"].map(|name| folder.path().join(name));
+    fs::write(&vertex, wrong).unwrap();
+    fs::write(&fragment, FRAGMENT).unwrap();
+    let rest = [fragment.to_str().unwrap(), "--assignment", homework.to_str().unwrap()];
+    let report = json(&vertex, &rest);
+    let lines = report["rubric"].as_array().unwrap();
+    let colour = lines.iter().find(|line| line["id"] == "colour").unwrap();
+    assert_eq!((&colour["file"], &colour["line"]), (&"waving.vert".into(), &8.into()), "{colour}");
+}
