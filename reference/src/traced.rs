@@ -109,10 +109,10 @@ impl TracedProgram {
         pipeline.varyings.iter().filter(is_float).map(own).collect()
     }
 
-    /// The output of the vertex stage, by its place, that an input of the fragment stage is interpolated from.
+    /// The output of the vertex stage, by its place, that an input of the fragment stage is interpolated from, by what the text calls it.
     pub fn interpolated_from(&self, input: &str) -> Option<usize> {
         let pipeline = self.pipeline.as_ref()?;
-        let is_it = |varying: &&Varying| pipeline.fragment.inputs()[varying.input].name == input;
+        let is_it = |varying: &&Varying| pipeline.fragment.inputs()[varying.input].written == input;
         pipeline.varyings.iter().find(is_it).map(|varying| varying.output)
     }
 

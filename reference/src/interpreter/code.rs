@@ -220,6 +220,8 @@ pub struct ObservedValue {
 pub struct ProgramVariable {
     /// Its name, or the path `block.member`, `lights[1].colour` of a uniform's leaf.
     pub name: String,
+    /// What the text calls it: `instance.member` of a block that goes from stage to stage.
+    pub written: String,
     /// Its type.
     pub kind: Type,
     /// Its first slot.

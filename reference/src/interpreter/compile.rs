@@ -64,6 +64,8 @@ struct Compiler {
     current: Option<usize>,
     depth: usize,
     structures: usize,
+    /// The instance names of blocks that go from stage to stage.
+    instances: Vec<Name>,
     uniforms: Vec<ProgramVariable>,
     inputs: Vec<ProgramVariable>,
     outputs: Vec<ProgramVariable>,
@@ -116,6 +118,7 @@ impl Compiler {
             current: None,
             depth: 0,
             structures: 0,
+            instances: Vec::new(),
             uniforms: Vec::new(),
             inputs: Vec::new(),
             outputs: Vec::new(),

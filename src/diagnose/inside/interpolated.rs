@@ -75,7 +75,7 @@ impl Search<'_, '_> {
     pub(super) fn handed_over(&self, mend: &Mend) -> Option<(u32, String)> {
         let fragment = self.theirs.stage(mend.stage);
         let What::Read(name) = &fragment.sites()[mend.suspect.site].what else { return None };
-        let is_input = self.theirs.interpolated().iter().any(|(input, _)| input.name == *name);
+        let is_input = self.theirs.interpolated().iter().any(|(input, _)| input.written == *name);
         let event = &self.trace(mend.stage)?.events[*mend.suspect.events.first()?];
         let is_right = self.quantities.equal_to(mend.stage, event).is_some() || is_along(event, &mend.values[0]);
         if mend.stage != Stage::Fragment || !is_input || is_right {
@@ -86,7 +86,7 @@ impl Search<'_, '_> {
         let written = &vertex.outputs[output];
         let is_right = |event: &usize| self.quantities.equal_to(Stage::Vertex, &vertex.events[*event]).is_some();
         let last = written.last().filter(|_| !written.iter().all(is_right))?;
-        Some((program.sites()[vertex.events[*last].site].line, program.outputs()[output].name.clone()))
+        Some((program.sites()[vertex.events[*last].site].line, program.outputs()[output].written.clone()))
     }
 
     /// Whether the value that belongs in the place of an input is that of another input.
@@ -95,7 +95,7 @@ impl Search<'_, '_> {
         let What::Read(name) = &sites[mend.suspect.site].what else { return false };
         let inputs = self.theirs.interpolated();
         let is_other = |event: &&Event| match &sites[event.site].what {
-            What::Read(other) => other != name && inputs.iter().any(|(input, _)| input.name == *other),
+            What::Read(other) => other != name && inputs.iter().any(|(input, _)| input.written == *other),
             _ => false,
         };
         mend.stage == Stage::Fragment

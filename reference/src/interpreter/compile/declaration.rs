@@ -121,6 +121,7 @@ impl Compiler {
             let (name, kind, line) = (name.to_string(), kind.clone(), self.builder.line);
             let (interpolation, location) = Default::default();
             self.locals.push(crate::interpreter::code::ProgramVariable {
+                written: name.clone(),
                 name,
                 kind,
                 slot,

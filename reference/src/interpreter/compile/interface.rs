@@ -85,6 +85,7 @@ impl Compiler {
         let (interpolation, location) = (Interpolation::Smooth, None);
         ProgramVariable {
             name: name.to_owned(),
+            written: name.to_owned(),
             kind: kind.clone(),
             slot,
             line: self.builder.line,
@@ -183,8 +184,13 @@ impl Compiler {
                 self.builder.line = line;
                 self.exchange(storage, &format!("{}.{name}", block.name), kind, slot)?;
                 self.qualify(storage, interpolation, None);
+                let own = self.inputs.last_mut().filter(|own| own.slot == slot);
+                if let Some(own) = own.or(self.outputs.last_mut().filter(|own| own.slot == slot)) {
+                    own.written = format!("{instance}.{name}");
+                }
                 slot += kind.slots().unwrap_or(0) as Slot;
             }
+            self.instances.push(Name::clone(instance));
         } else {
             return Err(self.limit(both(
                 "arrays of input and output blocks are not supported",

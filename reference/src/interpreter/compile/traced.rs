@@ -45,15 +45,16 @@ impl Compiler {
         }
         let mark = self.tracing.operands.len();
         let value = self.computed(expression)?;
-        let Some(what) = what(expression) else { return Ok(value) };
+        let Some(what) = self.what(expression) else { return Ok(value) };
         // The last operator of a chain makes its value.
         self.builder.line = match &expression.kind {
             ExpressionKind::Chain(_, others) => others.last().map_or(expression.line, |(_, line, _)| *line),
             _ => expression.line,
         };
         let value = self.record(what, value, mark, expression.at);
+        let is_whole = self.is_whole(expression);
         let site = self.tracing.operands.last().and_then(|&site| self.tracing.sites.get_mut(site));
-        site.into_iter().for_each(|site| site.is_part = !matches!(expression.kind, ExpressionKind::Name(_)));
+        site.into_iter().for_each(|site| site.is_part = !is_whole);
         Ok(value)
     }
 
@@ -123,9 +124,9 @@ impl Compiler {
         if !self.is_traced() {
             return value;
         }
-        let is_part = !is_whole || !matches!(to.kind, ExpressionKind::Name(_));
+        let is_part = !is_whole || !self.is_whole(to);
         let mark = self.tracing.operands.len().saturating_sub(1);
-        self.record(What::Assign { name: root(to).unwrap_or_default(), is_part }, value, mark, 0)
+        self.record(What::Assign { name: self.root(to).unwrap_or_default(), is_part }, value, mark, 0)
     }
 
     /// The place was given what was recorded last.
@@ -229,34 +230,45 @@ impl Compiler {
         }
         self.tracing.operands.clear();
     }
-}
 
-/// What an expression does; none of one that is recorded elsewhere, or only stands for another.
-fn what(expression: &Expression) -> Option<What> {
-    Some(match &expression.kind {
-        ExpressionKind::Integer(..) | ExpressionKind::Floating(..) | ExpressionKind::Bool(_) => What::Literal,
-        ExpressionKind::Name(_) | ExpressionKind::Index(..) => What::Read(root(expression)?),
-        ExpressionKind::Member(of, _) => match root(of) {
-            Some(name) => What::Read(name),
-            None => What::Part,
-        },
-        ExpressionKind::Unary(Unary::Plus, _) => return None,
-        ExpressionKind::Unary(..) => What::Unary,
-        ExpressionKind::Step(..) => What::Step,
-        ExpressionKind::Chain(_, others) => What::Binary(others.last()?.0),
-        ExpressionKind::Conditional(..) => What::Conditional,
-        ExpressionKind::Call(name, _) => What::Call(name.to_string()),
-        ExpressionKind::ArrayConstructor(..) | ExpressionKind::Length(_) => What::Part,
-        ExpressionKind::Assign(..) | ExpressionKind::Comma(_) | ExpressionKind::List(_) => return None,
-    })
-}
+    /// What an expression does; none of one that is recorded elsewhere, or only stands for another.
+    fn what(&self, expression: &Expression) -> Option<What> {
+        Some(match &expression.kind {
+            ExpressionKind::Integer(..) | ExpressionKind::Floating(..) | ExpressionKind::Bool(_) => What::Literal,
+            ExpressionKind::Name(_) | ExpressionKind::Index(..) => What::Read(self.root(expression)?),
+            ExpressionKind::Member(..) => self.root(expression).map_or(What::Part, What::Read),
+            ExpressionKind::Unary(Unary::Plus, _) => return None,
+            ExpressionKind::Unary(..) => What::Unary,
+            ExpressionKind::Step(..) => What::Step,
+            ExpressionKind::Chain(_, others) => What::Binary(others.last()?.0),
+            ExpressionKind::Conditional(..) => What::Conditional,
+            ExpressionKind::Call(name, _) => What::Call(name.to_string()),
+            ExpressionKind::ArrayConstructor(..) | ExpressionKind::Length(_) => What::Part,
+            ExpressionKind::Assign(..) | ExpressionKind::Comma(_) | ExpressionKind::List(_) => return None,
+        })
+    }
 
-/// The variable that an expression names, or a part of.
-fn root(expression: &Expression) -> Option<String> {
-    match &expression.kind {
-        ExpressionKind::Name(name) => Some(name.to_string()),
-        ExpressionKind::Index(of, _) | ExpressionKind::Member(of, _) => root(of),
-        ExpressionKind::Comma(one) if one.len() == 1 => root(&one[0]),
-        _ => None,
+    /// The variable that an expression names, or a part of.
+    fn root(&self, expression: &Expression) -> Option<String> {
+        match &expression.kind {
+            ExpressionKind::Name(name) => Some(name.to_string()),
+            ExpressionKind::Member(of, member) if self.is_instance(of) => Some(format!("{}.{member}", self.root(of)?)),
+            ExpressionKind::Index(of, _) | ExpressionKind::Member(of, _) => self.root(of),
+            ExpressionKind::Comma(one) if one.len() == 1 => self.root(&one[0]),
+            _ => None,
+        }
+    }
+
+    /// Whether an expression is all of a variable. A member of a block that goes from stage to stage is a variable.
+    fn is_whole(&self, expression: &Expression) -> bool {
+        match &expression.kind {
+            ExpressionKind::Name(_) => true,
+            ExpressionKind::Member(of, _) => self.is_instance(of),
+            _ => false,
+        }
+    }
+
+    fn is_instance(&self, expression: &Expression) -> bool {
+        matches!(&expression.kind, ExpressionKind::Name(name) if self.instances.contains(name))
     }
 }

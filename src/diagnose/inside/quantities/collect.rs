@@ -25,7 +25,7 @@ pub(super) fn of_stage(stage: Stage, program: &Program, trace: &Trace) -> Vec<Qu
 fn computed(stage: Stage, program: &Program, trace: &Trace) -> Vec<Quantity> {
     let mut found: Vec<Quantity> = Vec::new();
     let sites = program.sites();
-    let is_input = |name: &str| program.inputs().iter().any(|input| input.name == name);
+    let is_input = |name: &str| program.inputs().iter().any(|input| input.written == name);
     let mut by_site: Vec<Vec<usize>> = vec![Vec::new(); sites.len()];
     trace.events.iter().enumerate().for_each(|(number, event)| by_site[event.site].push(number));
     for (site, events) in sites.iter().zip(by_site).filter(|(_, events)| !events.is_empty()) {
