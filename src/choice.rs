@@ -1,7 +1,10 @@
 //! Which assignment is meant: one that is built in, by its name, or one in a folder.
 
+use crate::batch::intake::{self, HandInPart, IntakeOptions};
 use crate::language::Text;
 use crate::sandbox::MOST_ASSIGNMENTS;
+use crate::slots;
+use reference::assignment::Stage;
 use reference::{Assignment, Folder};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -110,21 +113,20 @@ pub fn folder(path: &Path) -> Result<Arc<Assignment>, Text> {
 
 /// The built-in assignment that these files are for: by their names, by a folder on the way to them, or else the usual one,
 /// which takes one vertex shader of any name: what is wrong with it is said in its report.
-fn fitting(files: &[PathBuf]) -> Result<Choice, Text> {
-    let names: Vec<&str> = files.iter().filter_map(|file| file.file_name()?.to_str()).collect();
+fn fitting(paths: &[PathBuf]) -> Result<Choice, Text> {
+    let names: Vec<String> = paths.iter().flat_map(|path| names(path)).collect();
     let fitting = reference::built_in::handing_in(&names);
     let chosen = |name: &str| reference::assignment(name).cloned();
     if let Some(assignment) = Some(&fitting).filter(|fitting| fitting.len() == 1).and_then(|fitting| chosen(fitting[0]))
     {
         return Ok(Choice { assignment, notice: None });
     }
-    let folders = files.iter().filter_map(|file| file.parent()).flat_map(|folder| folder.iter().rev());
+    let folders = paths.iter().filter_map(|path| path.parent()).flat_map(|folder| folder.iter().rev());
     let on_the_way = folders.filter_map(|folder| folder.to_str()).find_map(chosen);
     if let Some(assignment) = on_the_way {
         return Ok(Choice { assignment, notice: None });
     }
-    let is_fragment = |name: &&str| Path::new(name).extension().is_some_and(|extension| extension == "frag");
-    if fitting.is_empty() && (files.len() < 2 || !names.iter().any(is_fragment)) {
+    if fitting.is_empty() && !names.iter().any(|name| slots::tells(name, Stage::Fragment)) {
         let assignment = Arc::clone(default());
         let Assignment { id, title, .. } = &*assignment;
         let notice = names.first().map(|name| {
@@ -135,11 +137,28 @@ fn fitting(files: &[PathBuf]) -> Result<Choice, Text> {
         });
         return Ok(Choice { assignment, notice });
     }
-    let list = list();
+    let list = if fitting.is_empty() { list() } else { candidates(&fitting) };
     Err(Text::new(
         format!("which assignment is it? Say so with --assignment NAME or --assignment FOLDER. {}", list.en),
         format!("課題を特定できません。--assignment 名前 または --assignment フォルダ で指定してください。{}", list.ja),
     ))
+}
+
+/// The names of the files that a path stands for: its own, or those in the folder or archive that it is.
+fn names(path: &Path) -> Vec<String> {
+    if path.is_dir() || path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("zip")) {
+        return intake::names(vec![HandInPart::Path(path.into())], &IntakeOptions::new(default()));
+    }
+    path.file_name().map(|name| name.to_string_lossy().into_owned()).into_iter().collect()
+}
+
+/// Several built-in assignments whose files have these names, in one sentence.
+fn candidates(names: &[&str]) -> Text {
+    let names = names.join(", ");
+    Text::new(
+        format!("Files of these names are handed in for {names}."),
+        format!("同じ名前のファイルを提出する課題: {names}。"),
+    )
 }
 
 /// The built-in assignments, each with its files, in one sentence.

@@ -21,15 +21,22 @@ pub(crate) fn folder(name: &str) -> Option<Folder> {
 }
 
 /// The names of the assignments that hand in a file of one of these names, case aside. They are not loaded for it.
-pub fn handing_in(files: &[&str]) -> Vec<&'static str> {
-    let hands_in = |name: &&str| {
-        let folder = folder(name);
-        let manifest = folder.as_ref().and_then(|folder| folder.text(MANIFEST).ok()?.parse::<toml::Table>().ok());
-        let own = manifest.as_ref().and_then(|manifest| manifest.get("file")?.as_array());
-        let mut own = own.into_iter().flatten().filter_map(|file| file.get("name")?.as_str());
-        own.any(|own| files.iter().any(|file| file.eq_ignore_ascii_case(own)))
-    };
-    names().filter(hands_in).collect()
+pub fn handing_in(files: &[impl AsRef<str>]) -> Vec<&'static str> {
+    let is_given = |own: &String| files.iter().any(|file| file.as_ref().eq_ignore_ascii_case(own));
+    names().filter(|name| handed_in(name).iter().any(is_given)).collect()
+}
+
+/// The names of the files that are handed in: the folder's own, or else those of the one that it extends.
+fn handed_in(name: &str) -> Vec<String> {
+    let folder = folder(name);
+    let manifest = folder.as_ref().and_then(|folder| folder.text(MANIFEST).ok()?.parse::<toml::Table>().ok());
+    let Some(manifest) = manifest else { return Vec::new() };
+    match (manifest.get("file").and_then(toml::Value::as_array), manifest.get("extends").and_then(toml::Value::as_str))
+    {
+        (Some(own), _) => own.iter().filter_map(|file| Some(file.get("name")?.as_str()?.to_owned())).collect(),
+        (None, Some(base)) => handed_in(base),
+        (None, None) => Vec::new(),
+    }
 }
 
 /// The built-in assignment of this name, which is its id.

@@ -131,6 +131,12 @@ pub fn one(given: Vec<HandInPart>, options: &IntakeOptions) -> HandInContent {
     }
 }
 
+/// The names of the files of one hand-in, also of those in the folders and archives among what is given.
+pub fn names(given: Vec<HandInPart>, options: &IntakeOptions) -> Vec<String> {
+    let files = together(given, options).map(|group| group.files).unwrap_or_default();
+    files.into_iter().map(|file| file.name).collect()
+}
+
 /// What there is for each slot among the files that are given, and in the archives among them; a single file that does not
 /// say what it is is for the slot `asked`.
 ///

@@ -108,7 +108,8 @@ fn a_folder_is_graded_as_the_built_in_assignment() {
 fn a_missing_file_is_named() {
     let copy = Copy::new();
     fs::remove_file(copy.path("starter.vert")).unwrap();
-    copy.is_refused("starter.vert", None, "is not in the folder, which has assignment.toml", "フォルダにありません");
+    let line = copy.line(MANIFEST, "\"starter.vert\"");
+    copy.is_refused(MANIFEST, Some(line), "`starter.vert`: is not in the folder, which has", "フォルダにありません");
     fs::remove_file(copy.path(MANIFEST)).unwrap();
     copy.is_refused(MANIFEST, None, "every assignment has one", "どの課題にも必要");
 }
@@ -249,7 +250,22 @@ fn the_homework_is_found_by_the_names_of_the_files() {
     let output = ggrade().arg("grade").arg(&both[0]).arg(folder.path().join("Schlick.vert")).output().unwrap();
     let said = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(2), "{said}");
+    assert!(said.contains("Files of these names are handed in for flat, schlick."), "{said}");
+    // A folder says it by the files in it, and a fragment shader of another name says nothing.
+    let own = folder.path().join("mine");
+    fs::create_dir(&own).unwrap();
+    both.iter().for_each(|file| _ = fs::copy(file, own.join(file.file_name().unwrap())).unwrap());
+    let (report, said) = graded(&[&own]);
+    assert_eq!((&report["assignment"], report["score"].as_f64()), (&"flat".into(), Some(100.0)), "{said}");
+    let (_, said) = graded(&[&put("mine.frag", "flat/solution.frag")]);
     assert!(said.contains("Built in: blinn (blinn.vert),"), "{said}");
+    // What a homework extends is handed in for it as well.
+    let three = [
+        put("ggsample11.vert", "ggsample11-map/solution.vert"),
+        put("ggsample11.frag", "ggsample11-map/solution.frag"),
+    ];
+    let (_, said) = graded(&[&three[0], &three[1]]);
+    assert!(said.contains("handed in for ggsample11-map, ggsample11-pcf, ggsample11-vsm."), "{said}");
 }
 
 #[test]
