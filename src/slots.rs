@@ -2,7 +2,7 @@
 //!
 //! A slot is a file that the homework asks for, with its name and its stage. The slot's own name comes first, in any
 //! case; then that name with the mark of a copy (`ggsample06 (1).vert`); then another shader of the slot's stage; then a
-//! file that was renamed on its way (`.vert.txt`, `.glsl`); then a text that reads like the stage. Two files of the same
+//! file that was renamed on its way (`.vert.txt`, `vertex.glsl`, `.glsl`); then a text that reads like the stage. Two files of the same
 //! rank that differ are a question to the student, never a guess.
 
 mod fit;
@@ -10,6 +10,7 @@ mod fit;
 pub(crate) mod tests;
 pub(crate) mod wording;
 
+pub(crate) use fit::tells;
 pub use fit::{NameFit, fit};
 pub use reference::assignment::HandedIn as Slot;
 
@@ -163,7 +164,10 @@ impl<'a, F: Offered> Filling<'a, F> {
     /// Gives the last file to the last slot.
     fn last(&mut self) {
         let open: Vec<usize> = (0..self.slots.len()).filter(|&slot| self.is_open(slot)).collect();
-        let left: Vec<usize> = (0..self.files.len()).filter(|&file| !self.is_taken(file)).collect();
+        // A file that is given twice is one file.
+        let is_double = |file: usize| self.of_slot.iter().flatten().any(|&taken| self.are_same(file, &[taken]));
+        let is_left = |&file: &usize| !self.is_taken(file) && !is_double(file);
+        let left: Vec<usize> = (0..self.files.len()).filter(is_left).collect();
         if let ([slot], [file]) = (open.as_slice(), left.as_slice()) {
             self.of_slot[*slot] = Some(*file);
         }

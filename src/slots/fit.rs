@@ -69,6 +69,8 @@ pub fn fit(name: &str, slot: &Slot) -> NameFit {
         }
         _ if stem.strip_suffix(own).is_some_and(|rest| rest.ends_with('.')) && is_text(extension) => NameFit::Renamed,
         _ if others.contains(&extension) => NameFit::Renamed,
+        // `vertex.glsl`, `a.vs.txt`.
+        _ if is_text(extension) && slot.program.is_none() && tells(stem, slot.stage) => NameFit::Renamed,
         // What has another stage in its name is none of this one.
         _ if is_text(extension) && tells_stage(stem) => NameFit::Other,
         _ if OF_ANY.contains(&extension) => NameFit::Renamed,
@@ -77,13 +79,13 @@ pub fn fit(name: &str, slot: &Slot) -> NameFit {
     }
 }
 
-/// Whether a name tells the stage of its file by an extension.
+/// Whether a name tells the stage of its file.
 pub(super) fn tells_stage(name: &str) -> bool {
     [Stage::Vertex, Stage::Fragment].into_iter().any(|stage| tells(name, stage))
 }
 
-/// Whether a name tells by its extension, or by the one before the last, that the file is of this stage.
-pub(super) fn tells(name: &str, stage: Stage) -> bool {
+/// Whether a name tells by one of its last two words, `.` between them, that the file is of this stage.
+pub(crate) fn tells(name: &str, stage: Stage) -> bool {
     let name = name.trim().to_lowercase();
     let (own, others) = extensions(stage);
     name.rsplit('.').take(2).any(|extension| extension == own || others.contains(&extension))

@@ -40,6 +40,9 @@ fn each_file_goes_to_its_slot() {
         ([("a.fs", "f"), ("a.vs", "v")], ["a.vs", "a.fs"]),
         ([("ggsample11.frag.txt", "f"), ("ggsample11.vert.txt", "v")], ["ggsample11.vert.txt", "ggsample11.frag.txt"]),
         ([("one.glsl", FRAGMENT), ("two.glsl", VERTEX)], ["two.glsl", "one.glsl"]),
+        ([("fragment.glsl", "f"), ("vertex.glsl", "v")], ["vertex.glsl", "fragment.glsl"]),
+        ([("frag.txt", "f"), ("a.vs.txt", "v")], ["a.vs.txt", "frag.txt"]),
+        ([("fs", "f"), ("vs", "v")], ["vs", "fs"]),
         ([("a.txt", FRAGMENT), ("b", VERTEX)], ["b", "a.txt"]),
         // By name before the text: who swaps the two is told so by the compiler.
         ([("ggsample11.vert", FRAGMENT), ("ggsample11.frag", VERTEX)], ["ggsample11.vert", "ggsample11.frag"]),
@@ -47,6 +50,13 @@ fn each_file_goes_to_its_slot() {
     ] {
         assert_eq!(filled(&both(), &files, Trust::Found).unwrap(), expected, "{files:?}");
     }
+}
+
+#[test]
+fn a_file_that_is_given_twice_is_one_file() {
+    let twice = [("ggsample11.vert", VERTEX), ("ggsample11.vert", VERTEX)];
+    let said = filled(&both(), &twice, Trust::Named).unwrap_err();
+    assert!(said.starts_with("There is no `ggsample11.frag`, only `ggsample11.vert` × 2."), "{said}");
 }
 
 #[test]

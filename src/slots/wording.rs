@@ -150,8 +150,19 @@ pub(crate) fn list(names: &[String]) -> Text {
         }
         format!("`{short}`")
     };
-    let listed: Vec<String> = names.iter().take(LISTED).map(shown).collect();
-    match names.len().checked_sub(LISTED) {
+    let mut once: Vec<(&String, usize)> = Vec::new();
+    for name in names {
+        match once.iter_mut().find(|(known, _)| *known == name) {
+            Some((_, count)) => *count += 1,
+            None => once.push((name, 1)),
+        }
+    }
+    let counted = |(name, count): &(&String, usize)| match count {
+        1 => shown(name),
+        _ => format!("{} × {count}", shown(name)),
+    };
+    let listed: Vec<String> = once.iter().take(LISTED).map(counted).collect();
+    match once.len().checked_sub(LISTED) {
         None | Some(0) => Text::new(listed.join(", "), listed.join("、")),
         Some(more) => {
             Text::new(format!("{} and {more} more", listed.join(", ")), format!("{} ほか {more} 個", listed.join("、")))
