@@ -42,6 +42,14 @@ impl AssignmentError {
             let found = located.entry.as_deref().and_then(|entry| entry_in(folder, entry));
             (located.file, located.line) = found.map_or((located.file, None), |(file, line)| (file, Some(line)));
         }
+        // A file that is not there is named somewhere.
+        if !folder.files.contains_key(&located.file)
+            && let Some((manifest, line)) = naming(folder, &located.file)
+        {
+            let file = format!("`{}`", std::mem::replace(&mut located.file, manifest));
+            located.line = Some(line);
+            located.entry = Some(located.entry.map_or_else(|| file.clone(), |entry| format!("{entry}, {file}")));
+        }
         if let Ok(text) = folder.text(&located.file) {
             located = located.in_column_of(text);
         }
@@ -116,10 +124,21 @@ pub(crate) fn error(place: impl Into<String>, message: Text) -> AssignmentError 
 
 /// The manifest of a folder, or of one that it extends, in which an entry stands, and its line there.
 fn entry_in(folder: &Folder, entry: &str) -> Option<(String, u32)> {
+    in_manifests(folder, |text| line_of(text, entry))
+}
+
+/// The manifest of a folder, or of one that it extends, that names a file, and the line in which it does.
+fn naming(folder: &Folder, file: &str) -> Option<(String, u32)> {
+    let name = format!("\"{file}\"");
+    in_manifests(folder, |text| Some(text.lines().position(|line| line.contains(&name))? as u32 + 1))
+}
+
+/// The first manifest of a folder, and of those that it extends, in which there is such a line.
+fn in_manifests(folder: &Folder, line: impl Fn(&str) -> Option<u32>) -> Option<(String, u32)> {
     let mut file = MANIFEST.to_owned();
     loop {
         let text = folder.text(&file).ok()?;
-        if let Some(line) = line_of(text, entry) {
+        if let Some(line) = line(text) {
             return Some((file, line));
         }
         file = manifest::name_of_base(&manifest::extended(text)?);

@@ -160,21 +160,7 @@ impl<'a> SceneReader<'a> {
             far: self.get("far", |scene| scene.far)?,
             times: self.get("poses", |scene| scene.poses.as_ref().map(times))?,
         };
-        let sane = view.near > 0.0
-            && view.far > view.near
-            && view.fovy > 0.0
-            && view.fovy < std::f64::consts::PI
-            && (1..=MOST_POSES).contains(&view.times.len())
-            && view.times.iter().all(|t| (0.0..1.0).contains(t));
-        if !sane {
-            return Err(error(
-                "scene",
-                both(
-                    "the camera, the window or the number of poses makes no picture: look at `near`, `far`, `fovy` and `poses`",
-                    "カメラ、ウィンドウ、またはポーズの数が正しくないため、絵になりません。`near`、`far`、`fovy`、`poses` を確かめてください",
-                ),
-            ));
-        }
+        makes_pictures(&view)?;
         Ok(view)
     }
 
@@ -270,6 +256,35 @@ impl<'a> SceneReader<'a> {
             None => Ok(Model::Turn(0.0)),
         }
     }
+}
+
+/// A camera that sees nothing, and a number of poses that nobody waits for.
+fn makes_pictures(view: &View) -> CheckResult<()> {
+    let View { near, far, fovy, times, .. } = view;
+    let wrong = if !(*near > 0.0 && far > near) {
+        both(
+            "`near` is above 0, and `far` is above `near`: anything else makes no picture",
+            "`near` は 0 より大きく、`far` は `near` より大きくしてください。そうでないと絵になりません",
+        )
+    } else if !(*fovy > 0.0 && *fovy < std::f64::consts::PI) {
+        both(
+            "`fovy` is an angle in radians above 0 and below 3.14: 0.52 is 30 degrees",
+            "`fovy` は 0 より大きく 3.14 より小さい角度 (ラジアン) です。30 度は 0.52 です",
+        )
+    } else if !(1..=MOST_POSES).contains(&times.len()) {
+        both(
+            format!("`poses` is a number from 1 to {MOST_POSES}, or a list of as many times"),
+            format!("`poses` は 1 から {MOST_POSES} までの数か、その個数以内の時刻の並びです"),
+        )
+    } else if !times.iter().all(|t| (0.0..1.0).contains(t)) {
+        both(
+            "the times in `poses` are parts of the cycle: from 0 on, below 1",
+            "`poses` の時刻は 1 周期を 1 とする値です。0 以上 1 未満にしてください",
+        )
+    } else {
+        return Ok(());
+    };
+    Err(error("scene", wrong))
 }
 
 fn times(poses: &Poses) -> Vec<f64> {

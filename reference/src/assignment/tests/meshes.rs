@@ -22,8 +22,8 @@ fn a_mesh_that_cannot_be_read_is_named_by_its_file() {
             MANIFEST,
             "models/stool.obj",
             "models/chair.obj",
-            "models/chair.obj: is not in the folder, which has assignment.toml",
-            "models/chair.obj: フォルダにありません",
+            "assignment.toml, line 67, `models/chair.obj`: is not in the folder, which has assignment.toml",
+            "assignment.toml の 67 行目、`models/chair.obj`: フォルダにありません",
         ),
         (
             MANIFEST,

@@ -44,14 +44,17 @@ fn what_contradicts_itself_is_refused_with_its_place() {
     assert_eq!(
         broken("far = 15", "far = 0.5"),
         format!(
-            "assignment.toml, line {}, scene: the camera, the window or the number of poses makes no picture: look at `near`, \
-             `far`, `fovy` and `poses`",
+            "assignment.toml, line {}, scene: `near` is above 0, and `far` is above `near`: anything else makes no picture",
             line_of("[scene]")
         )
     );
     assert_eq!(
         broken("starter = \"starter.vert\"", "starter = \"other.vert\""),
-        "other.vert: is not in the folder, which has assignment.toml, fixed.frag, solution.vert, starter.vert: add it, or correct the name"
+        format!(
+            "assignment.toml, line {}, `other.vert`: is not in the folder, which has assignment.toml, fixed.frag, \
+             solution.vert, starter.vert: add it, or correct the name",
+            line_of("starter = \"starter.vert\"")
+        )
     );
 }
 

@@ -222,10 +222,14 @@ fn a_file_that_is_no_picture_is_named() {
     let mut folder = carpet();
     folder.files.remove("pictures/label.png");
     let text = refused(folder);
-    assert!(text.en.starts_with("pictures/label.png, texture `label`: is not in the folder, which has"), "{}", text.en);
+    assert!(
+        text.en.starts_with("assignment.toml, line 20, texture `label`, `pictures/label.png`: is not in the folder"),
+        "{}",
+        text.en
+    );
     let outside = refused(changed(MANIFEST, "pictures/label.png", "../waves/assignment.toml"));
     assert!(
-        outside.en.starts_with("../waves/assignment.toml, texture `label`: is not in the folder"),
+        outside.en.starts_with("assignment.toml, line 20, texture `label`, `../waves/assignment.toml`: is not in"),
         "{}",
         outside.en
     );

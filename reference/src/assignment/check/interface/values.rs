@@ -78,7 +78,12 @@ fn check(numbers: &[f64], scalar: Scalar) -> ValueResult<()> {
     match numbers.iter().find(|number| !fits(number)) {
         Some(number) => {
             let kind = Type::Vector(scalar, 1);
-            Err(both(format!("{number} is not a {kind}"), format!("{number} は {kind} の値ではありません")))
+            Err(both(
+                format!(
+                    "{number} is no value of type {kind}: write another number, or give the declaration another type"
+                ),
+                format!("{number} は {kind} 型の値ではありません。数か、宣言の型を直してください"),
+            ))
         }
         None => Ok(()),
     }
