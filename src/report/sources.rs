@@ -24,6 +24,9 @@ pub struct SourceInfo {
     pub encoding: String,
 }
 
+/// So many digits of a digest tell two editions apart.
+const EDITION: usize = 12;
+
 impl Report {
     /// What was handed in, or the first file of it.
     pub fn source(&self) -> &SourceInfo {
@@ -55,6 +58,12 @@ impl Report {
     /// The names of all files, joined for a person.
     pub fn file_names(&self) -> String {
         self.sources.iter().map(|source| source.name.as_str()).collect::<Vec<_>>().join(", ")
+    }
+
+    /// The homework with the edition of its folder, for a person: its id, and how the digest begins.
+    pub fn edition(&self) -> String {
+        let begin = self.assignment_digest.get(..EDITION).unwrap_or(&self.assignment_digest);
+        format!("{} {begin}", self.assignment).trim_end().to_owned()
     }
 
     /// Names the file of each place, where there is only one.

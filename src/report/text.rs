@@ -215,7 +215,7 @@ impl ReportWriter {
     fn environment(&mut self, report: &Report) {
         let labels = self.labels;
         let environment = &report.environment;
-        let mut facts = vec![format!("ggrade {}", environment.ggrade)];
+        let mut facts = vec![format!("ggrade {}", environment.ggrade), report.edition()];
         facts.extend([environment.renderer.clone(), environment.driver.clone()]);
         if report.probes.samples > 0 {
             facts.push(format!("{} {}", labels.seed, report.probes.seed));

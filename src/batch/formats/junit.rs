@@ -1,4 +1,4 @@
-//! JUnit XML for CI: a suite a student, a case a rubric line.
+//! JUnit XML for CI: one suite for each student, one case for each line of the rubric.
 
 use super::untrusted::{one_line, visible};
 use super::wording;
@@ -54,6 +54,7 @@ fn properties(report: &Report) -> Vec<Property> {
         Property::new("score", number(report.score)),
         Property::new("max_score", number(report.max_score)),
         Property::new("file", one_line(&report.file_names())),
+        Property::new("assignment_digest", report.assignment_digest.clone()),
         Property::new("seed", report.probes.seed.to_string()),
     ];
     if let Some(lateness) = report.lateness {

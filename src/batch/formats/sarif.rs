@@ -49,6 +49,7 @@ pub fn render(class: &Class) -> String {
                 "executionSuccessful": !failed,
                 "toolExecutionNotifications": notifications,
             }],
+            "properties": { "assignment": class.assignment.id, "assignmentDigest": class.assignment.digest },
             "artifacts": run.artifacts,
             "results": run.results,
         }],

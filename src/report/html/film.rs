@@ -69,7 +69,7 @@ impl Film {
         let Some(first) = expected.first() else { return Ok(None) };
         // A sheet that is served stands beside those of others, in one place for all.
         let (finest, part) = match shown {
-            FilmUse::Embedded => (finest(expected)?, part(yours, expected)),
+            FilmUse::Embedded => (finest(expected)?, shared_area(yours, expected)),
             FilmUse::Served => (1, Area::whole(first.width, first.height)),
         };
         let motion = Motion::of(expected.len(), first.width as usize, first.height as usize);
@@ -151,7 +151,7 @@ fn expected_address(expected: &Arc<[Picture]>, part: Area, factor: usize) -> Res
 
 /// The part of all pictures that a page shows, the rest of which is background: where a right answer draws, for most others draw
 /// nowhere else, and share what is made of it. All of them where one draws elsewhere.
-fn part(yours: &[Picture], expected: &[Picture]) -> Area {
+fn shared_area(yours: &[Picture], expected: &[Picture]) -> Area {
     let Some(first) = expected.first() else { return Area::default() };
     let painted = |pictures: &[Picture]| pictures.iter().fold(Area::default(), |all, picture| all.with(picture.area));
     let right = painted(expected);
@@ -167,7 +167,7 @@ fn finest(expected: &Arc<[Picture]>) -> Result<usize, Fault> {
     static FOUND: PictureCache<[Picture], (), usize> = PictureCache::new();
     FOUND.get(expected, (), || {
         for factor in REDUCTIONS {
-            let sheet = reduced_sheet(expected, part(expected, expected), factor)?;
+            let sheet = reduced_sheet(expected, shared_area(expected, expected), factor)?;
             if embedded_length(&sheet.encode()?) <= BUDGET_OF_EXPECTED {
                 return Ok(factor);
             }

@@ -58,8 +58,8 @@ impl MapView {
                     "フレーム {frame} の、正解と異なる領域の中ほどの画素（左から {x}、上から {y}、0 から数えて）についての図です。光源に近いところほど暗く描いています。"
                 ),
             ),
-            told_yours: told(&lookup.yours, language),
-            told_right: told(&lookup.right, language),
+            told_yours: sentence(&lookup.yours, language),
+            told_right: sentence(&lookup.right, language),
         })
     }
 }
@@ -94,7 +94,7 @@ fn is_outside(place: &MapPlace) -> bool {
 }
 
 /// Where it is looked up, in words.
-fn told(places: &[MapPlace], language: Language) -> String {
+fn sentence(places: &[MapPlace], language: Language) -> String {
     let english = language == Language::En;
     let [first, others @ ..] = places else {
         return if english { "does not read the map here" } else { "ここではマップを参照していません" }.into();
