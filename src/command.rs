@@ -111,10 +111,14 @@ fn assignment(asked: Option<&str>, files: &[PathBuf], language: Language) -> Opt
 }
 
 /// The time that a grading may take; none for a number that is none.
-fn deadline(seconds: f64) -> Option<Duration> {
+fn deadline(seconds: f64, language: Language) -> Option<Duration> {
     let deadline = Duration::try_from_secs_f64(seconds).ok().filter(|duration| !duration.is_zero());
     if deadline.is_none() {
-        anstream::eprintln!("ggrade: --deadline takes seconds above 0, such as 2 or 0.5");
+        let text = Text::new(
+            "--deadline takes seconds above 0, such as 2 or 0.5",
+            "--deadline には 0 より大きい秒数を指定してください (例: 2、0.5)",
+        );
+        anstream::eprintln!("ggrade: {}", text.get(language));
     }
     deadline
 }

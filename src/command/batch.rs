@@ -30,7 +30,7 @@ pub fn run(arguments: &BatchCommand) -> Result<ExitStatus, Fault> {
     };
     // Before any thread is started.
     let interrupt = Interrupt::watch()?;
-    let Some(deadline) = deadline(arguments.deadline) else { return Ok(ExitStatus::Usage) };
+    let Some(deadline) = deadline(arguments.deadline, language(arguments.lang)) else { return Ok(ExitStatus::Usage) };
     match grade(arguments, shards, deadline, &interrupt) {
         Ok(outcome) => Ok(outcome),
         Err(NotBegun::Fault(fault)) => Err(fault),

@@ -9,7 +9,7 @@ use crate::fault::Fault;
 use crate::grade::{Order, handed_out};
 use crate::language::{Language, Text};
 use crate::render::AdapterKind;
-use crate::report::{Environment, Verdict};
+use crate::report::{Environment, Report, Verdict};
 use crate::sandbox::{GradingTask, Policy, Pool, Settings};
 use installation::Installation;
 use reference::Assignment;
@@ -25,9 +25,20 @@ pub fn run(arguments: &DoctorArguments) -> Result<ExitStatus, Fault> {
     let what = installation.description();
     let head = format!("ggrade {} ({})", env!("CARGO_PKG_VERSION"), program.display());
     say(true, &Text::new(format!("{head}: {}", what.en), format!("{head}: {}", what.ja)), language);
-    let mut healthy = check_sandbox(language);
+    let (mut healthy, mut said) = match check_sandbox(language) {
+        Ok(closed) => (closed, None),
+        Err(fault) => (complain(&fault, language), Some(fault.message)),
+    };
     for assignment in reference::assignments() {
-        healthy &= check_assignment(assignment, language);
+        match check_assignment(assignment, language) {
+            Ok(is_right) => healthy &= is_right,
+            // What the machine lacks, every homework lacks: it is said once.
+            Err(fault) if said.as_ref() == Some(&fault.message) => healthy = false,
+            Err(fault) => {
+                healthy = complain(&fault, language);
+                said = Some(fault.message);
+            }
+        }
     }
     let gpu = Settings { adapter: AdapterKind::Gpu, ..settings(choice::default()) };
     let gpu = match Pool::start(gpu, 1) {
@@ -55,11 +66,8 @@ fn settings(assignment: &Arc<Assignment>) -> Settings {
 }
 
 /// Says of each layer of the sandbox whether it holds, and what a worker could do in spite of all.
-fn check_sandbox(language: Language) -> bool {
-    let protection = match Pool::start(settings(choice::default()), 1) {
-        Ok(pool) => pool.protection().clone(),
-        Err(fault) => return complain(&fault, language),
-    };
+fn check_sandbox(language: Language) -> Result<bool, Fault> {
+    let protection = Pool::start(settings(choice::default()), 1)?.protection().clone();
     for state in &protection.layers {
         let name = state.layer.name();
         let en = format!("sandbox, {}: {}", name.en, state.detail);
@@ -78,46 +86,37 @@ fn check_sandbox(language: Language) -> bool {
         ),
     };
     say(protection.is_closed(), &text, language);
-    protection.is_closed()
+    Ok(protection.is_closed())
 }
 
 /// Grades the handed-out file, which every homework has, and says how that went.
-fn check_assignment(assignment: &Arc<Assignment>, language: Language) -> bool {
+fn check_assignment(assignment: &Arc<Assignment>, language: Language) -> Result<bool, Fault> {
     let start = Instant::now();
-    let pool = match Pool::start(settings(assignment), 1).and_then(|pool| pool.warm().map(|()| pool)) {
-        Ok(pool) => pool,
-        Err(fault) => return complain(&fault, language),
-    };
+    let pool = Pool::start(settings(assignment), 1)?;
+    pool.warm()?;
     let warm = start.elapsed();
     let hand_in = handed_out(assignment);
     let submission = GradingTask { assignment, hand_in: &hand_in, order: Order::default(), wants_frames: false };
     let start = Instant::now();
-    match pool.grade(submission) {
-        Ok(answer) if answer.report.verdict == Verdict::Wrong => {
-            let environment = &answer.report.environment;
-            let driver = Text::verbatim(format!("Vulkan: {} ({})", environment.renderer, environment.driver));
-            say(true, &driver, language);
-            let (warm, graded) = (warm.as_millis(), start.elapsed().as_millis());
-            let text = Text::new(
-                format!(
-                    "{}: a worker is ready in {warm} ms and grades the handed-out file in {graded} ms",
-                    assignment.id
-                ),
-                format!("{}: ワーカの準備に {warm} ms、配布ファイルの採点に {graded} ms", assignment.id),
-            );
-            say(true, &text, language);
-            true
-        }
-        Ok(answer) => {
-            let text = Text::new(
-                format!("{}: the handed-out file got the verdict {:?}", assignment.id, answer.report.verdict),
-                format!("{}: 配布ファイルの判定が {:?} になりました", assignment.id, answer.report.verdict),
-            );
-            say(false, &text, language);
-            false
-        }
-        Err(fault) => complain(&fault, language),
-    }
+    let Report { verdict, environment, .. } = pool.grade(submission)?.report;
+    let is_right = verdict == Verdict::Wrong;
+    let id = &assignment.id;
+    let text = if is_right {
+        let driver = Text::verbatim(format!("Vulkan: {} ({})", environment.renderer, environment.driver));
+        say(true, &driver, language);
+        let (warm, graded) = (warm.as_millis(), start.elapsed().as_millis());
+        Text::new(
+            format!("{id}: a worker is ready in {warm} ms and grades the handed-out file in {graded} ms"),
+            format!("{id}: ワーカの準備に {warm} ms、配布ファイルの採点に {graded} ms"),
+        )
+    } else {
+        Text::new(
+            format!("{id}: the handed-out file got the verdict {verdict:?}"),
+            format!("{id}: 配布ファイルの判定が {verdict:?} になりました"),
+        )
+    };
+    say(is_right, &text, language);
+    Ok(is_right)
 }
 
 /// Says whether the service could ask learning platforms and issuers; nothing else needs https.

@@ -18,7 +18,7 @@ use std::time::Duration;
 /// Grades one hand-in and writes its report.
 pub fn run(arguments: &GradeArguments) -> Result<ExitStatus, Fault> {
     let language = language(arguments.lang);
-    let Some(deadline) = deadline(arguments.deadline) else { return Ok(ExitStatus::Usage) };
+    let Some(deadline) = deadline(arguments.deadline, language) else { return Ok(ExitStatus::Usage) };
     let asked = arguments.machine.assignment.as_deref();
     let Some(assignment) = super::assignment(asked, &arguments.files, language) else { return Ok(ExitStatus::Usage) };
     let wish = GradeRequest { arguments, assignment, deadline, language };

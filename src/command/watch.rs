@@ -33,7 +33,7 @@ pub fn run(arguments: &WatchArguments) -> Result<ExitStatus, Fault> {
 async fn watch(arguments: &WatchArguments) -> Result<ExitStatus, Fault> {
     let mut ends = EndSignals::listen().map_err(|error| broken(&error))?;
     let language = language(arguments.lang);
-    let Some(deadline) = deadline(arguments.deadline) else { return Ok(ExitStatus::Usage) };
+    let Some(deadline) = deadline(arguments.deadline, language) else { return Ok(ExitStatus::Usage) };
     for path in &arguments.files {
         if let Err(error) = std::fs::File::open(path) {
             anstream::eprintln!("ggrade: {}", files::unreadable(path, &error).get(language));

@@ -32,11 +32,14 @@ pub(super) fn tell(
     cause: &Cause,
     culprits: &[&str],
 ) -> Told {
-    let told: Vec<Told> = culprits
-        .iter()
-        .filter_map(|id| cause.mistake(evidence.assignment, id))
-        .map(|mistake| of_mistake(evidence, facts, line, cause, mistake))
-        .collect();
+    let mut told: Vec<Told> = Vec::new();
+    for mistake in culprits.iter().filter_map(|id| cause.mistake(evidence.assignment, id)) {
+        let one = of_mistake(evidence, facts, line, cause, mistake);
+        // Two mistakes in one place may be told in the same words.
+        if told.iter().all(|known| known.text != one.text) {
+            told.push(one);
+        }
+    }
     if told.is_empty() {
         let is_unseen = facts.is_finite_nowhere && !evidence.assignment.judges_position(line);
         let text = if is_unseen { unseen() } else { agreement(evidence, line) };

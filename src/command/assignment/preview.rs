@@ -27,7 +27,7 @@ pub fn run(arguments: &Arguments, language: Language) -> Result<ExitStatus, Faul
         anstream::eprintln!("ggrade: {}", text.get(language));
         return Ok(ExitStatus::Usage);
     }
-    if deadline(arguments.deadline).is_none() {
+    if deadline(arguments.deadline, language).is_none() {
         return Ok(ExitStatus::Usage);
     }
     let place = tempfile::tempdir().map_err(|error| broken(&error))?;
