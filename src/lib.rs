@@ -1,6 +1,6 @@
 //! ggrade, the autograder for GLSL shading homework.
 //!
-//! The modules stand in the order in which a submission flows through them:
+//! A submission flows through
 //! [`hand_in`] → [`slots`] → [`source`] → [`translate`] → [`render`] → [`compare`] → [`diagnose`] → [`report`].
 //! [`grade`] is the pipeline, [`sandbox`] the processes that it runs in. Many submissions at once are a [`batch`],
 //! uploads in a browser the [`service`]; [`command`] is what a person calls.

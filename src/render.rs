@@ -3,6 +3,9 @@
 //! First the student's vertex stage runs alone, over the vertices of the frames and of the probes: it writes clip-space
 //! positions and colours to a buffer ([`capture`]). From that buffer a pipeline of our own paints the frames as tiles of
 //! one texture ([`painter`], [`tiles`]), each only as far as its triangles reach, which is read back once.
+//!
+//! A fragment stage that is handed in runs over these triangles in the painter's place ([`fragments`]), and at each probe
+//! over the corners of one pixel ([`pixels`]).
 
 mod buffers;
 mod capture;

@@ -162,7 +162,7 @@ const TABLE: [FormatRow; 14] = [
         ClassFormat::Junit,
         "junit",
         &["junit.xml"],
-        "JUnit XML: a suite a student, a case a rubric line",
+        "JUnit XML: one suite for each student, one case for each line of the rubric",
         "JUnit XML（学生ごとのスイート、採点項目ごとのケース）",
     ),
     row(

@@ -28,7 +28,7 @@ pub fn changed(source: &Source, assignment: &Assignment) -> Vec<ChangedConstant>
             let (at, text) = initialiser(code, &constant.name).or_else(|| defined(code, &constant.name))?;
             let kind = constant.value.kind();
             let found = Value::new(kind.clone(), interpreter::constant(text, kind).ok()?)?;
-            (!same(&found, &constant.value)).then(|| ChangedConstant {
+            (!is_equal(&found, &constant.value)).then(|| ChangedConstant {
                 name: constant.name.clone(),
                 expected: constant.value.clone(),
                 found,
@@ -51,7 +51,7 @@ pub(super) fn with(text: &str, code: &str, name: &str, value: &Value) -> Option<
 }
 
 /// Whether two values draw the same: alpha is not seen, but a light's w is.
-fn same(a: &Value, b: &Value) -> bool {
+fn is_equal(a: &Value, b: &Value) -> bool {
     // Literals are read in f32 by a compiler; a change that small is none.
     const RELATIVE: f64 = 1e-6;
     let close = |(x, y): (f64, f64)| (x - y).abs() <= RELATIVE * y.abs().max(1e-3);

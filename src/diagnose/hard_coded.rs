@@ -36,7 +36,7 @@ fn entries(probes: &ProbeSet, samples: &[Sample]) -> usize {
     let each = samples.len() / probes.groups.len().max(1);
     let mut entries: Vec<&Sample> = Vec::new();
     for sample in samples.iter().step_by(each.max(1)) {
-        if !entries.iter().any(|known| same(known, sample)) {
+        if !entries.iter().any(|known| is_equal(known, sample)) {
             entries.push(sample);
         }
     }
@@ -50,10 +50,10 @@ pub fn ignores_normals(probes: &ProbeSet, samples: &[Sample]) -> bool {
 
 fn stays_the_same(groups: [Range<usize>; 2], samples: &[Sample]) -> bool {
     let [one, other] = groups.map(|places| samples.get(places).unwrap_or_default());
-    !one.is_empty() && one.len() == other.len() && one.iter().zip(other).all(|(a, b)| same(a, b))
+    !one.is_empty() && one.len() == other.len() && one.iter().zip(other).all(|(a, b)| is_equal(a, b))
 }
 
-fn same(a: &Sample, b: &Sample) -> bool {
+fn is_equal(a: &Sample, b: &Sample) -> bool {
     a.colour_f64().iter().zip(b.colour_f64()).all(|(x, y)| (x - y).abs() <= COLOUR_TOLERANCE)
 }
 
@@ -61,7 +61,7 @@ fn same(a: &Sample, b: &Sample) -> bool {
 /// and they would leave points to a term that varies, of which it shows nothing. (Black is also a product with one factor
 /// missing, and white is everything added up.)
 pub fn is_coincidence(assignment: &Assignment, probes: &ProbeSet, samples: &[Sample], found: &[FoundMistake]) -> bool {
-    let is_one_colour = samples.iter().all(|sample| same(sample, &samples[0]));
+    let is_one_colour = samples.iter().all(|sample| is_equal(sample, &samples[0]));
     let leaves = |line: &RubricLine| found.iter().all(|found| assignment.keeps(found, line) > 0.0);
     let mut colours = assignment.rubric.iter().filter(|line| !assignment.judges_position(line));
     found.iter().any(|found| found.parameter.is_some())

@@ -31,8 +31,8 @@ pub use join::{
     check_course_link, course_link, course_secret, join, leave, normal_number, renew_course_secret, with_code,
 };
 pub use login::{LoginForm, login, logout, open_for};
+pub(super) use secrets::{equal_secrets, hex};
 pub use secrets::{hash_password, new_id, new_token, token_hash};
-pub(super) use secrets::{hex, same};
 pub(super) use staff::PASSWORD_SETTING;
 pub(crate) use staff::SHORTEST_PASSWORD;
 pub use staff::{

@@ -7,7 +7,7 @@ use super::directives::{LineState, standings};
 use super::encoding::Encoding;
 use super::lookalikes::{ascii_for, is_bidi, is_invisible, is_space};
 use crate::diagnostic::{Diagnostic, Severity};
-use wording::{skipped, told};
+use wording::{diagnostic, skipped};
 
 /// How many places are told one by one.
 const MAX_PLACES: usize = 20;
@@ -28,10 +28,10 @@ pub(super) fn in_code(source: &Source) -> (Vec<Diagnostic>, Vec<Diagnostic>) {
         runs(source).into_iter().partition(|run| standing(run) == LineState::Compiled);
     // One word a line is enough where nothing is wrong.
     warnings.dedup_by(|next, run| standing(run) == LineState::Skipped && next.line == run.line);
-    let errors = bounded(Severity::Error, &errors, told);
+    let errors = bounded(Severity::Error, &errors, diagnostic);
     let warnings = bounded(Severity::Warning, &warnings, |run| match standing(run) {
         LineState::Skipped => skipped(run),
-        _ => told(run),
+        _ => diagnostic(run),
     });
     let place = |diagnostics: Vec<(Option<usize>, Diagnostic)>| {
         let placed = diagnostics.into_iter().map(|(offset, diagnostic)| match offset {

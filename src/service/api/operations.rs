@@ -3,7 +3,7 @@
 use super::refusals::Errors;
 use crate::service::Service;
 use crate::service::errors::{Problem, ProblemJson};
-use crate::service::identity::{bearer, same};
+use crate::service::identity::{bearer, equal_secrets};
 use crate::service::limits::Client;
 use crate::service::metrics as figures;
 use axum::extract::State as Shared;
@@ -50,7 +50,7 @@ pub(super) async fn metrics(
     headers: HeaderMap,
 ) -> Result<Response, Problem> {
     let has_token = match (&service.config.metrics_token, bearer(&headers)) {
-        (Some(token), Some(given)) => same(token, given),
+        (Some(token), Some(given)) => equal_secrets(token, given),
         _ => false,
     };
     if !has_token && !client.is_local {

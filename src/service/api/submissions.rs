@@ -9,7 +9,7 @@ use crate::service::acts::Detail;
 use crate::service::download;
 use crate::service::errors::Problem;
 use crate::service::idempotency::{self, RequestKey};
-use crate::service::identity::{Identity, Teacher, Visitor, course_secret, normal_number, same, with_code};
+use crate::service::identity::{Identity, Teacher, Visitor, course_secret, equal_secrets, normal_number, with_code};
 use crate::service::language::Lang;
 use crate::service::limits::Client;
 use crate::service::roster::not_on_roster;
@@ -175,7 +175,7 @@ async fn identity(
         return browser(state, visitor, headers).await;
     };
     let may_name = match &about.course {
-        Some(secret) => same(secret, &course_secret(state).await?),
+        Some(secret) => equal_secrets(secret, &course_secret(state).await?),
         None => teacher.is_some_and(|teacher| teacher.may_see(&state.assignment.id)),
     };
     if !may_name {

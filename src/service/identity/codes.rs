@@ -3,7 +3,7 @@
 //! It is computed from the service's key, the student and the generation of their code, so that a lecturer can look it up
 //! again, and a lost one is replaced by raising the generation. It has 50 bits, which no rate of requests makes guessable.
 
-use super::secrets::same;
+use super::secrets::equal_secrets;
 use crate::service::Service;
 use crate::service::errors::Problem;
 use crate::service::store::StudentRecord;
@@ -36,7 +36,7 @@ pub fn personal_link(course_link: &str, student: &StudentRecord, code: &str) -> 
 /// Whether somebody typed this student's code, however they wrote it.
 pub(super) fn is_code_of(service: &Service, student: &StudentRecord, typed: &str) -> bool {
     let code = personal_code(service, student);
-    !code.is_empty() && same(&normal(&code), &normal(typed))
+    !code.is_empty() && equal_secrets(&normal(&code), &normal(typed))
 }
 
 /// A code without what people add to it, and with the letters that they meant.

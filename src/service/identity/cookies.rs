@@ -122,5 +122,5 @@ pub(in crate::service) fn set_sign_in(service: &Service, state: &str, seconds: u
 
 /// Whether a request comes from the browser in which a launch or a sign-in began.
 pub(in crate::service) fn has_launch(service: &Service, headers: &HeaderMap, state: &str) -> bool {
-    read(service, headers, &of_launch(state)).is_some_and(|value| super::same(&value, state))
+    read(service, headers, &of_launch(state)).is_some_and(|value| super::equal_secrets(&value, state))
 }

@@ -1,6 +1,6 @@
 //! Tokens in forms, which only pages of ours can know: a keyed hash of the cookie that the form comes with.
 
-use super::secrets::{hex, same};
+use super::secrets::{equal_secrets, hex};
 use crate::service::Service;
 use crate::service::errors::Problem;
 use axum::http::StatusCode;
@@ -19,7 +19,7 @@ pub(super) fn token(service: &Service, cookie: &str) -> String {
 /// Lets a form pass that has its cookie's token.
 pub(super) fn check(service: &Service, cookie: &str, given: &str) -> Result<(), Problem> {
     let expected = token(service, cookie);
-    if !expected.is_empty() && same(&expected, given) {
+    if !expected.is_empty() && equal_secrets(&expected, given) {
         return Ok(());
     }
     Err(Problem::new(

@@ -1,7 +1,7 @@
 //! The course link: who has it may say by which number they are known, and prove it by their personal code.
 
 use super::codes::{code_needed, is_code_of, wrong_code};
-use super::secrets::same;
+use super::secrets::equal_secrets;
 use super::{Identity, Visitor, new_token};
 use crate::service::Service;
 use crate::service::courses::public_address;
@@ -35,7 +35,7 @@ pub async fn renew_course_secret(service: &Service) -> Result<String, Problem> {
 
 /// Whether this is the secret of the course link.
 pub async fn check_course_link(service: &Service, secret: &str) -> Result<(), Problem> {
-    if same(secret, &course_secret(service).await?) { Ok(()) } else { Err(Problem::not_found()) }
+    if equal_secrets(secret, &course_secret(service).await?) { Ok(()) } else { Err(Problem::not_found()) }
 }
 
 /// The student with a number that somebody typed.

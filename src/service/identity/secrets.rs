@@ -31,7 +31,7 @@ pub(in crate::service) fn hex(bytes: &[u8]) -> String {
 }
 
 /// Whether two secrets are the same; the time that it takes tells nothing of where they differ.
-pub(in crate::service) fn same(a: &str, b: &str) -> bool {
+pub(in crate::service) fn equal_secrets(a: &str, b: &str) -> bool {
     Sha256::digest(a.as_bytes()).ct_eq(&Sha256::digest(b.as_bytes())).into()
 }
 
@@ -63,6 +63,6 @@ mod tests {
     fn secrets_are_long_and_never_twice_the_same() {
         assert_eq!(new_token().len(), TOKEN_LENGTH);
         assert_ne!(new_token(), new_token());
-        assert!(same("abc", "abc") && !same("abc", "abd") && !same("abc", "abcd"));
+        assert!(equal_secrets("abc", "abc") && !equal_secrets("abc", "abd") && !equal_secrets("abc", "abcd"));
     }
 }

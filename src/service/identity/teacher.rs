@@ -2,7 +2,7 @@
 
 use super::accounts::in_course;
 use super::cookies::{TEACHER_COOKIE, read};
-use super::secrets::same;
+use super::secrets::equal_secrets;
 use super::{csrf, token_hash};
 use crate::service::Service;
 use crate::service::errors::Problem;
@@ -191,11 +191,11 @@ impl Teacher {
 
 /// Whose token this is: the id of a homework, none for the whole course; nothing where it is no teacher's.
 pub(super) fn of_token(service: &Service, token: &str) -> Option<Option<String>> {
-    if service.teacher_token.as_ref().is_some_and(|secret| same(secret, token)) {
+    if service.teacher_token.as_ref().is_some_and(|secret| equal_secrets(secret, token)) {
         return Some(None);
     }
     let of_homeworks = service.config.homework_tokens.iter();
-    of_homeworks.filter(|(_, secret)| same(secret, token)).map(|(id, _)| Some(id.clone())).next()
+    of_homeworks.filter(|(_, secret)| equal_secrets(secret, token)).map(|(id, _)| Some(id.clone())).next()
 }
 
 /// Whether a request brings a teacher's token, as a program of theirs does.

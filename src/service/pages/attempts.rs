@@ -67,7 +67,7 @@ impl Attempt {
             }),
             can_choose: can_choose && row.score.is_some(),
             portrait: row.verdict.is_some_and(Verdict::is_drawn).then(|| frame.picture(&submission.id, "portrait")),
-            at: frame.moment(submission.received_at),
+            at: frame.datetime(submission.received_at),
             mistakes: Vec::new(),
             is_disputed: false,
             file: String::new(),

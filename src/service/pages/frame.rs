@@ -152,7 +152,7 @@ impl PageFrame {
     }
 
     /// A moment as this page's reader takes it, in the course's time zone. Every date of a page comes from here.
-    pub(super) fn moment(&self, at: Millis) -> TimeElement {
+    pub(super) fn datetime(&self, at: Millis) -> TimeElement {
         TimeElement::of(at, self.language, self.course.zone())
     }
 
@@ -162,7 +162,7 @@ impl PageFrame {
     }
 
     /// The same to the second, for a receipt.
-    pub(super) fn exact_moment(&self, at: Millis) -> TimeElement {
+    pub(super) fn exact_datetime(&self, at: Millis) -> TimeElement {
         TimeElement::exact(at, self.language, self.course.zone())
     }
 

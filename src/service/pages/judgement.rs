@@ -180,7 +180,7 @@ impl ShownAppeal {
             is_taken: appeal.taken_at.is_some(),
             label: rubric_label(&state.assignment, &appeal.line, frame.language).to_owned(),
             question: appeal.question,
-            at: frame.moment(appeal.asked_at),
+            at: frame.datetime(appeal.asked_at),
             handler: appeal.handler.unwrap_or_default(),
             answer: appeal.answer,
             id: appeal.id,

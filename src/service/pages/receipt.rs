@@ -55,7 +55,7 @@ pub(super) async fn receipt(
     let files = hand_in.files.into_iter().map(|file| (file.sha256(), file.name)).collect();
     let view = ReceiptPage {
         frame,
-        at: frame.exact_moment(submission.received_at),
+        at: frame.exact_datetime(submission.received_at),
         name: &submission.name,
         attempt,
         score,

@@ -98,7 +98,7 @@ pub(super) async fn page(
 }
 
 fn about(frame: &PageFrame, submission: &Submission) -> String {
-    let at = frame.moment(submission.received_at).text;
+    let at = frame.datetime(submission.received_at).text;
     let what = match submission.via {
         Via::Editor => frame.say("A draft, not handed in", "下書き（未提出）"),
         Via::Page | Via::Api | Via::Batch => frame.say("Handed in", "提出"),

@@ -215,7 +215,7 @@ impl StudentStanding<'_> {
 
 /// Until when late hand-ins are taken, and what they lose.
 fn late_rules(settings: &AssignmentSettings, frame: &PageFrame, ends: Millis) -> String {
-    let (rules, ends) = (&settings.late, frame.moment(ends).text);
+    let (rules, ends) = (&settings.late, frame.datetime(ends).text);
     let (percent, floor) = (number(rules.percent), number(rules.floor));
     let (en, ja) = match rules.span {
         LateSpan::Day => ("day", "1 日"),

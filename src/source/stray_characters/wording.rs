@@ -11,7 +11,7 @@ const MAX_NAMES: usize = 3;
 const MAX_SHOWN: usize = 20;
 
 /// The error for a run in code.
-pub(super) fn told(run: &CharacterRun) -> Diagnostic {
+pub(super) fn diagnostic(run: &CharacterRun) -> Diagnostic {
     let (message, hint) = match run.text.chars().next().map_or(CharacterKind::Foreign, kind) {
         CharacterKind::Space => {
             (space(run), Text::new("Type an ordinary space instead.", "半角スペースに直してください。"))

@@ -103,7 +103,7 @@ pub(in crate::service::pages) async fn page(
         Language::Ja => words::in_japanese(act, &detail),
     };
     let line = |act: NamedAct| ActLine {
-        at: frame.exact_moment(act.act.at),
+        at: frame.exact_datetime(act.act.at),
         who: who(&frame, &act),
         act: named(&frame, &act.act.act),
         homework: act.act.assignment.unwrap_or_default(),

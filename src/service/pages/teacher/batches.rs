@@ -86,13 +86,13 @@ async fn view_list(
     let mut batches = Vec::new();
     for batch in state.store.batches(&state.assignment.id).await? {
         let progress = state.store.progress(&batch.id).await?;
-        let at = frame.moment(batch.created_at);
+        let at = frame.datetime(batch.created_at);
         batches.push(BatchLine { id: batch.id, title: batch.title, at, progress });
     }
     let mut regradings = Vec::new();
     for regrading in state.store.regradings(&state.assignment.id).await? {
         let progress = state.store.regrading_progress(&regrading.id).await?;
-        let at = frame.moment(regrading.created_at);
+        let at = frame.datetime(regrading.created_at);
         let title = match regrading.adopted_at {
             Some(_) => frame.say("adopted", "採用済み"),
             None => frame.say("not adopted", "未採用"),
@@ -170,7 +170,7 @@ async fn view_one(
         BatchPage {
             place: Tab::Batches,
             csrf: teacher.csrf(state),
-            at: frame.moment(batch.created_at),
+            at: frame.datetime(batch.created_at),
             events: at(&format!("/api/v1/batches/{}/events", batch.id)),
             progress: state.store.progress(&batch.id).await?,
             table: StudentTable::of(&frame, &everyone, filter),

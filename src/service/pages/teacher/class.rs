@@ -90,7 +90,7 @@ pub(in crate::service::pages) async fn page(
     let mut mistakes = titled(&frame, &mistakes);
     mistakes.sort();
     let course = charts::course(&everyone).map(|course| {
-        let (from, to) = (frame.moment(course.from).text, frame.moment(course.to).text);
+        let (from, to) = (frame.datetime(course.from).text, frame.datetime(course.to).text);
         (course, from, to)
     });
     let expected = &state.right.portraits().map_err(internal)?.expected;

@@ -64,7 +64,7 @@ async fn line(frame: &PageFrame, service: &Service) -> Result<CourseLine, Proble
         title: if title.is_empty() { untitled } else { title },
         root: service.root().to_owned(),
         homeworks: service.ids().len(),
-        archived: service.store.archived_at().await?.map(|at| frame.moment(at)),
+        archived: service.store.archived_at().await?.map(|at| frame.datetime(at)),
         id,
     })
 }

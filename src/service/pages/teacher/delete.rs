@@ -60,7 +60,7 @@ async fn found(state: &State, frame: &PageFrame, chosen: &DeletionForm) -> Resul
         return Ok(FoundTarget {
             heading: frame
                 .say("Delete this archive with everything in it?", "このアーカイブと中の提出をすべて削除しますか?"),
-            name: format!("{} · {}", batch.title, frame.moment(batch.created_at).text),
+            name: format!("{} · {}", batch.title, frame.datetime(batch.created_at).text),
             back: format!("{}/batches/{}", frame.teacher(), batch.id),
             target: DeletionTarget::Batch(batch.id),
             is_on_roster: false,
@@ -97,7 +97,7 @@ async fn found_submission(state: &State, frame: &PageFrame, id: &str) -> Result<
     let submission = state.store.submission(id).await?.filter(of_this).ok_or_else(Problem::not_found)?;
     Ok(FoundTarget {
         heading: frame.say("Delete this submission?", "この提出を削除しますか?"),
-        name: format!("{} · {}", submission.name, frame.moment(submission.received_at).text),
+        name: format!("{} · {}", submission.name, frame.datetime(submission.received_at).text),
         back: at(&format!("/r/{}", submission.id)),
         target: DeletionTarget::Submission(submission.id),
         is_on_roster: false,

@@ -146,7 +146,7 @@ async fn view(
             is_group: extension.number.is_none(),
             whose: extension.number.unwrap_or(extension.key),
             name: extension.name,
-            until: frame.moment(extension.closes_at),
+            until: frame.datetime(extension.closes_at),
             reason: extension.reason,
         });
     }

@@ -116,7 +116,7 @@ fn line(service: &Service, frame: &PageFrame, folder: &UploadedFolder) -> Folder
         id: folder.id.clone(),
         homework: folder.assignment.clone(),
         digest: folder.digest.chars().take(DIGITS).collect(),
-        at: frame.moment(folder.uploaded_at),
+        at: frame.datetime(folder.uploaded_at),
         uploader: folder.uploader.clone().unwrap_or_default(),
         standing,
     }

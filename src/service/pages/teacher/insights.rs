@@ -82,7 +82,7 @@ pub(in crate::service::pages) async fn page(
     frame: PageFrame,
 ) -> Result<Response, Problem> {
     let insights = insights::of(&state).await?;
-    let time = |at| frame.moment(at).text;
+    let time = |at| frame.datetime(at).text;
     shown(
         InsightsPage {
             place: Tab::Insights,

@@ -147,7 +147,7 @@ pub(in crate::service::pages) async fn page(
         RegradingsPage {
             place: Tab::Batches,
             csrf: teacher.csrf(&state),
-            at: frame.moment(regrading.created_at),
+            at: frame.datetime(regrading.created_at),
             seed: regrading.seed,
             events: format!("{}/regradings/{id}/events", frame.teacher()),
             progress: state.store.regrading_progress(&id).await?,

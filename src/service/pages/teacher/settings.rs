@@ -142,7 +142,7 @@ pub(super) async fn view(
             zones: zone_names(),
             link: identity::course_link(state, headers).await?,
             students: state.store.students().await?.iter().filter(|student| student.on_roster != 0).count(),
-            deletions: deletions.into_iter().map(|gone| (frame.moment(gone.at), gone.said(frame.language))).collect(),
+            deletions: deletions.into_iter().map(|gone| (frame.datetime(gone.at), gone.said(frame.language))).collect(),
             frame,
         }
         .render(),

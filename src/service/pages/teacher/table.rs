@@ -181,7 +181,7 @@ fn row(frame: &PageFrame, filter: &TableFilter, index: usize, person: &Person) -
         is_disputed: person.is_disputed(),
         note: note.map(|note| note.get(frame.language).replace('`', "")).unwrap_or_default(),
         attempts: person.rows.len(),
-        at: person.latest().map(|at| frame.moment(at)),
+        at: person.latest().map(|at| frame.datetime(at)),
     }
 }
 

@@ -108,8 +108,8 @@ fn line(frame: &PageFrame, OwnedToken { token, login }: OwnedToken) -> TokenLine
     TokenLine {
         scope: scope_name(frame, token.scope),
         homework: token.assignment.unwrap_or_default(),
-        until: frame.moment(token.expires_at),
-        used: token.last_used_at.map(|at| frame.moment(at)),
+        until: frame.datetime(token.expires_at),
+        used: token.last_used_at.map(|at| frame.datetime(at)),
         id: token.id,
         name: token.name,
         owner: login,
