@@ -4,7 +4,7 @@ use crate::batch::intake::{self, HandInPart, IntakeOptions};
 use crate::language::Text;
 use crate::sandbox::MOST_ASSIGNMENTS;
 use crate::slots;
-use reference::assignment::Stage;
+use reference::interpreter::Stage;
 use reference::{Assignment, Folder};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;

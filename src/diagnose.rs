@@ -26,8 +26,8 @@ use cause::{Cause, belongs, cause, kept};
 pub use fresh::Fresh;
 use message::Facts;
 use reference::Assignment;
-use reference::assignment::Stage;
 use reference::equation::DISCARDED;
+use reference::interpreter::Stage;
 use reference::probes::{Crossings, EdgeDefect, Pictured, Probe, ProbeSet};
 use reference::traced::TracedProgram;
 
@@ -43,7 +43,7 @@ pub struct Evidence<'a> {
     /// The student's text.
     pub source: &'a Source,
     /// All that was handed in, each text with its stage.
-    pub sources: &'a [(reference::interpreter::Stage, &'a Source)],
+    pub sources: &'a [(Stage, &'a Source)],
     /// The frames, compared.
     pub frames: &'a [FrameResult],
     /// The probes that judge.
@@ -72,11 +72,11 @@ impl<'a> Evidence<'a> {
     }
 
     /// The text of a stage, and the file that was handed out for it.
-    fn text(&self, stage: Option<reference::interpreter::Stage>) -> (&'a Source, &'a str) {
-        let own = |known: reference::interpreter::Stage| stage == Some(known);
+    fn text(&self, stage: Option<Stage>) -> (&'a Source, &'a str) {
+        let own = |known: Stage| stage == Some(known);
         let source = self.sources.iter().find(|(known, _)| own(*known)).map_or(self.source, |(_, source)| source);
         let files = &self.assignment.files;
-        let file = files.iter().find(|file| own(file.stage.into())).unwrap_or(&files[0]);
+        let file = files.iter().find(|file| own(file.stage)).unwrap_or(&files[0]);
         (source, file.starter_shader())
     }
 }
@@ -84,7 +84,7 @@ impl<'a> Evidence<'a> {
 impl Evidence<'_> {
     /// The text of the fragment stage, where it has the word `discard`.
     fn source_that_discards(&self) -> Option<&Source> {
-        let fragment = self.sources.iter().find(|(stage, _)| *stage == reference::interpreter::Stage::Fragment);
+        let fragment = self.sources.iter().find(|(stage, _)| *stage == Stage::Fragment);
         fragment.map(|(_, source)| *source).filter(|source| source.words().any(|(_, word)| word == "discard"))
     }
 }

@@ -2,7 +2,8 @@
 
 use crate::ffi::opengl::{Driver, OpenglDraw, Rejection, ValueKind, Version, Window};
 use crate::render::{DrawCall, RenderScene};
-use reference::assignment::{HandedIn, Stage};
+use reference::assignment::HandedIn;
+use reference::interpreter::Stage;
 use reference::interpreter::{Scalar, Texture, Type};
 use reference::rasteriser::{Coverage, Frame};
 use reference::{Assignment, Value};

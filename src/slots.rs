@@ -17,7 +17,7 @@ pub use reference::assignment::HandedIn as Slot;
 use crate::hand_in::HandIn;
 use crate::language::Text;
 use crate::source;
-use reference::assignment::Stage;
+use reference::interpreter::Stage;
 use std::collections::HashSet;
 
 /// A slot for which there is no file, or for which there are several.

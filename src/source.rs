@@ -147,7 +147,7 @@ pub fn decoded_text(bytes: &[u8]) -> String {
 /// format, no sense in any encoding.
 pub fn not_text(slot: &HandedIn, bytes: &[u8]) -> Option<Diagnostic> {
     let error = *decode(bytes).err()?;
-    Some(if slot.program.is_some() { kind::of_program(error) } else { of_stage(slot.stage.into(), error) })
+    Some(if slot.program.is_some() { kind::of_program(error) } else { of_stage(slot.stage, error) })
 }
 
 /// A refusal in the words of a homework that asks for this stage.

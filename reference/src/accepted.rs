@@ -48,7 +48,7 @@ impl Assignment {
     pub(crate) fn linked_with(&self, file: &HandedIn, program: Program, name: &str) -> Option<AcceptedAnswer> {
         let own = Arc::new(program);
         let right = &self.pipeline;
-        let [vertex, fragment] = match Stage::from(file.stage) {
+        let [vertex, fragment] = match file.stage {
             Stage::Vertex => [&own, &right.fragment],
             Stage::Fragment => [&right.vertex, &own],
         };

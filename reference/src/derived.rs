@@ -10,7 +10,7 @@ mod wording;
 
 use crate::assignment::RubricLine;
 use crate::equation::{Equation, Reads};
-use crate::interpreter::{DefinitionSlip, Draft, FREE, Operator, Stage};
+use crate::interpreter::{DefinitionSlip, Draft, FREE, Operator};
 use crate::mistake::{DefinitionOverride, FoundMistake, FreeParameter, Mistake, MistakeForm};
 use crate::probes::ProbeSet;
 use crate::{Assignment, Value};
@@ -222,7 +222,7 @@ fn components(forms: &[MistakeForm]) -> Vec<String> {
 fn slips(assignment: &Assignment) -> Option<(Vec<(usize, DefinitionSlip)>, Equation)> {
     let file = assignment.files.first()?;
     let constants: Vec<&str> = assignment.constants.iter().map(|constant| constant.name.as_str()).collect();
-    let mut draft = Draft::read(&file.solution.text, Stage::from(file.stage), &constants).ok()?;
+    let mut draft = Draft::read(&file.solution.text, file.stage, &constants).ok()?;
     let equation = &assignment.equation;
     draft.beyond(&equation.sheet).ok()?;
     let mut slips = Vec::new();

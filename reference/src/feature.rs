@@ -53,7 +53,7 @@ impl Assignment {
     fn with_value(&self, value: &str, instead: &str) -> Option<(TracedProgram, Stage, usize)> {
         let file = self.files.iter().position(|file| file.solution.text.contains(value))?;
         let mut texts: Vec<(Stage, String)> =
-            self.files.iter().map(|file| (file.stage.into(), file.solution.text.clone())).collect();
+            self.files.iter().map(|file| (file.stage, file.solution.text.clone())).collect();
         let (stage, text) = &mut texts[file];
         let stage = *stage;
         // On a line of its own it is told from all else.

@@ -72,15 +72,19 @@ pub use texture::{Compare, Depths, Filter, Level, Lookup, Texels, Texture, Wrap}
 pub use types::{Dimension, Sampler, Scalar, Struct, Type};
 
 use crate::Text;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use std::collections::HashSet;
 use std::fmt;
 
-/// The stage that a program is for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// A stage of the pipeline.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema, Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Stage {
-    /// Vertices.
+    /// The vertex shader.
     Vertex,
-    /// Fragments; samples are 2 × 2 pixels after 2 × 2 pixels, each row by row from below.
+    // Its samples are 2 × 2 pixels after 2 × 2 pixels, each row by row from below.
+    /// The fragment shader.
     Fragment,
 }
 

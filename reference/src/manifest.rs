@@ -28,8 +28,9 @@ pub use texture::{Format, Picture, Texture, TextureSize, Wraps};
 pub use variant::Variant;
 
 use crate::Text;
+use crate::interpreter::Stage;
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 use std::collections::BTreeMap;
 use toml::Spanned;
 
@@ -197,25 +198,6 @@ pub struct Fixed {
     pub stage: Stage,
     /// The file, in the assignment's folder.
     pub file: String,
-}
-
-/// A stage of the pipeline.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Stage {
-    /// The vertex shader.
-    Vertex,
-    /// The fragment shader.
-    Fragment,
-}
-
-impl From<Stage> for crate::interpreter::Stage {
-    fn from(stage: Stage) -> Self {
-        match stage {
-            Stage::Vertex => Self::Vertex,
-            Stage::Fragment => Self::Fragment,
-        }
-    }
 }
 
 /// A constant of the handed-out file.

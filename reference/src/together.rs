@@ -15,7 +15,7 @@ impl Assignment {
         let texts = self.texts_with(found, beside)?;
         let [mut vertex, mut fragment] = [&self.pipeline.vertex, &self.pipeline.fragment].map(Arc::clone);
         for (file, text) in self.files.iter().zip(texts).filter(|(file, text)| file.solution.text != *text) {
-            let stage = Stage::from(file.stage);
+            let stage = file.stage;
             let program = Arc::new(Program::compile(&text, stage).ok()?);
             match stage {
                 Stage::Vertex => vertex = program,
@@ -29,7 +29,7 @@ impl Assignment {
     /// The solution with these mistakes in it, to be looked into.
     pub fn traced_with(&self, found: &[FoundMistake]) -> Option<TracedProgram> {
         let texts = self.texts_with(found, None)?;
-        let stages = self.files.iter().map(|file| Stage::from(file.stage));
+        let stages = self.files.iter().map(|file| file.stage);
         let texts: Vec<(Stage, &str)> = stages.zip(texts.iter().map(String::as_str)).collect();
         TracedProgram::new(self, &texts).ok()
     }

@@ -73,7 +73,7 @@ impl TracedProgram {
     /// Why it cannot be run.
     pub fn solution(assignment: &Assignment) -> Result<Self, Text> {
         let texts: Vec<(Stage, &str)> =
-            assignment.files.iter().map(|file| (file.stage.into(), file.solution.text.as_str())).collect();
+            assignment.files.iter().map(|file| (file.stage, file.solution.text.as_str())).collect();
         Self::new(assignment, &texts)
     }
 

@@ -3,7 +3,7 @@
 use crate::accepted::{AcceptedAnswer, Computed};
 use crate::assignment::Feed;
 use crate::fit::{TOLERANCE, agrees};
-use crate::interpreter::{ChangedPart, Scalar, Stage, Type, program_without_parts};
+use crate::interpreter::{ChangedPart, Scalar, Type, program_without_parts};
 use crate::probes::ProbeSet;
 use crate::rasteriser::Frame;
 use crate::value::rounded;
@@ -44,7 +44,7 @@ impl Assignment {
         let right = |place: usize| (probes.probes[place].colour, probes.probes[place].position);
         let mut unseen: Vec<UnseenPart> = Vec::new();
         for file in &self.files {
-            let slips = program_without_parts(&file.solution.text, Stage::from(file.stage)).unwrap_or_default();
+            let slips = program_without_parts(&file.solution.text, file.stage).unwrap_or_default();
             // Nothing in place of nothing is no change.
             let is_zero = |text: &str| text.trim().parse() == Ok(0.0);
             for slip in slips.into_iter().filter(|slip| !is_zero(&slip.part.own)) {
@@ -70,8 +70,8 @@ impl Assignment {
         let is_handed_in = |path: &str| {
             self.files.iter().filter(|file| file.program.is_none()).any(|file| {
                 let program = match file.stage {
-                    crate::assignment::Stage::Vertex => &self.pipeline.vertex,
-                    crate::assignment::Stage::Fragment => &self.pipeline.fragment,
+                    crate::interpreter::Stage::Vertex => &self.pipeline.vertex,
+                    crate::interpreter::Stage::Fragment => &self.pipeline.fragment,
                 };
                 program.uniforms().iter().any(|own| own.name == path)
             })

@@ -44,7 +44,7 @@ impl Extended {
             return Ok(None);
         }
         let extended = assignment.with(&taken);
-        let own = extended.fixed.first().map(|fixed| (fixed.stage.into(), fixed.text.as_str()));
+        let own = extended.fixed.first().map(|fixed| (fixed.stage, fixed.text.as_str()));
         let note = |taken: &RecognisedUniform<'_>| {
             let note = taken.as_what.note.as_ref()?;
             Some((taken.name.clone(), taken.as_what.id.clone(), Text::new(&*note.en, &*note.ja)))

@@ -31,7 +31,7 @@ impl Programs {
         if assignment.equation.reads() == Reads::Attributes {
             return Ok(None);
         }
-        let own = assignment.fixed.first().map(|fixed| (fixed.stage.into(), fixed.text.as_str()));
+        let own = assignment.fixed.first().map(|fixed| (fixed.stage, fixed.text.as_str()));
         let program = HomeworkProgram::new(LinkedInterface::of(assignment)?, own)?;
         Ok(Some(Self { program, captured: None }))
     }
@@ -49,7 +49,7 @@ impl Grader {
         let mut sources: Vec<(Stage, Source)> = Vec::new();
         let mut refused: Vec<Diagnostic> = Vec::new();
         for (file, slot) in files.iter().zip(&self.assignment.files) {
-            let stage = Stage::from(slot.stage);
+            let stage = slot.stage;
             match source::read_stage(stage, &file.name, &file.bytes) {
                 Ok(source) => sources.push((stage, source)),
                 Err(refusal) => refused.extend(in_file(&file.name, refusal.diagnostics)),

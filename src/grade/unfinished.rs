@@ -8,7 +8,7 @@ use crate::report::{Environment, ProbeResult, Report, RubricLine, SourceInfo, Ve
 use crate::slots::{self, Slot, Trust};
 use crate::source;
 use reference::Assignment;
-use reference::assignment::Stage;
+use reference::interpreter::Stage;
 
 /// The report of a hand-in that was not rendered to the end: no points, and the diagnostics say why.
 pub fn unfinished(

@@ -4,6 +4,7 @@ use super::*;
 use crate::diagnostic::DiagnosticStage;
 use crate::hand_in::HandedInFile;
 use crate::source::{self, Source};
+use reference::interpreter::Stage;
 use std::sync::Arc;
 
 /// The course's frame, an eighth in each direction.
@@ -58,7 +59,7 @@ pub(crate) fn correct() -> Report {
         assignment_digest: "0123456789abcdef".into(),
         sources: vec![SourceInfo {
             name: "ggsample06.vert".into(),
-            stage: Some(reference::assignment::Stage::Vertex),
+            stage: Some(Stage::Vertex),
             sha256: "3f".repeat(32),
             bytes: 1833,
             encoding: "utf-8".into(),
@@ -172,7 +173,7 @@ pub(crate) fn own_values() -> OwnValues {
 pub(crate) fn two_files() -> Report {
     let mut report = wrong();
     let source = |name: &str, stage| SourceInfo { name: name.into(), stage: Some(stage), ..report.sources[0].clone() };
-    let (vertex, fragment) = (reference::assignment::Stage::Vertex, reference::assignment::Stage::Fragment);
+    let (vertex, fragment) = (Stage::Vertex, Stage::Fragment);
     report.sources = vec![source("ggsample11.vert", vertex), source("ggsample11.frag", fragment)];
     report.rubric[3].file = Some("ggsample11.frag".into());
     report.diagnostics[0].file = Some("ggsample11.vert".into());

@@ -2,7 +2,7 @@
 
 use super::Report;
 use crate::hand_in;
-use reference::assignment::Stage;
+use reference::interpreter::Stage;
 use serde::{Deserialize, Deserializer, Serialize};
 use std::collections::HashMap;
 

@@ -1,7 +1,7 @@
 //! How well a file's name fits a slot.
 
 use super::Slot;
-use reference::assignment::Stage;
+use reference::interpreter::Stage;
 
 /// How well a file's name fits, the best first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

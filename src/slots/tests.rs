@@ -2,7 +2,8 @@
 
 use super::*;
 use crate::hand_in::HandedInFile;
-use reference::assignment::{HandedIn, Solution, Stage};
+use reference::assignment::{HandedIn, Solution};
+use reference::interpreter::Stage;
 
 pub(crate) fn slot(name: &str, stage: Stage) -> HandedIn {
     let solution = Solution { name: String::new(), text: String::new() };

@@ -3,7 +3,7 @@
 use super::fit::tells;
 use super::{Slot, SlotProblem};
 use crate::language::Text;
-use reference::assignment::Stage;
+use reference::interpreter::Stage;
 
 /// How many file names a message lists.
 const LISTED: usize = 4;

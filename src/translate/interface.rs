@@ -46,7 +46,7 @@ impl LinkedInterface {
         let broken = |what: &str| Fault::new(Text::verbatim(format!("assignment {}: {what}", assignment.id)));
         let variable =
             |name: &str, kind: &reference::interpreter::Type| Variable { name: name.into(), ty: kind.to_string() };
-        let fixed = assignment.fixed.iter().find(|fixed| fixed.stage == assignment::Stage::Fragment);
+        let fixed = assignment.fixed.iter().find(|fixed| fixed.stage == Stage::Fragment);
         let fixed = fixed.map_or("", |fixed| fixed.text.as_str());
         // Of two with one name the last counts: it is the student's own.
         let all = &assignment.interface.uniforms;

@@ -5,7 +5,7 @@ use ggrade::opengl::{disagreeing, frame, texts};
 use ggrade::render::{AdapterKind, Device, RenderScene, Renderer};
 use ggrade::source;
 use ggrade::translate::{HomeworkProgram, LinkedInterface, Stage};
-use reference::interpreter::{Program as Compiled, Stage as InterpreterStage, Texels};
+use reference::interpreter::{Program as Compiled, Texels};
 use reference::rasteriser::{Coverage, Frame};
 use reference::{Assignment, Folder, assignment};
 use std::collections::BTreeMap;
@@ -34,10 +34,10 @@ fn differs(from: &[u8], from_opengl: [u8; 4], by: u8) -> bool {
 
 fn compared(gl: &OpenGl, assignment: &Assignment) -> Counts {
     let texts = texts(assignment, |file| &file.solution.text);
-    let own = assignment.fixed.first().map(|fixed| (Stage::from(fixed.stage), fixed.text.as_str()));
+    let own = assignment.fixed.first().map(|fixed| (fixed.stage, fixed.text.as_str()));
     let program = HomeworkProgram::new(LinkedInterface::of(assignment).unwrap(), own).unwrap();
     let read = |file: &assignment::HandedIn| {
-        let stage = Stage::from(file.stage);
+        let stage = file.stage;
         (stage, source::read_stage(stage, &file.solution.name, file.solution.text.as_bytes()).expect("a text"))
     };
     let sources: Vec<_> = assignment.files.iter().map(read).collect();
@@ -112,11 +112,11 @@ fn right_samples_of_the_built_in_homeworks_are_what_opengl_draws() {
                     Some(program) => {
                         source::read_program(&program.array, &file.name, &bytes).expect("a program").source
                     }
-                    None => source::read_stage(file.stage.into(), &file.name, &bytes).expect("a text"),
+                    None => source::read_stage(file.stage, &file.name, &bytes).expect("a text"),
                 }
                 .text
             };
-            let handed_in: Vec<(assignment::Stage, String)> =
+            let handed_in: Vec<(Stage, String)> =
                 assignment.files.iter().map(|file| (file.stage, read(file))).collect();
             let own = |file: &assignment::HandedIn| -> &str {
                 handed_in.iter().find(|(stage, _)| *stage == file.stage).map_or("", |(_, text)| text)
@@ -124,8 +124,8 @@ fn right_samples_of_the_built_in_homeworks_are_what_opengl_draws() {
             let [mut vertex, mut fragment] = texts(assignment, |file| file.starter_shader());
             for file in &assignment.files {
                 match file.stage {
-                    assignment::Stage::Vertex => vertex = own(file),
-                    assignment::Stage::Fragment => fragment = own(file),
+                    Stage::Vertex => vertex = own(file),
+                    Stage::Fragment => fragment = own(file),
                 }
             }
             count += 1;
@@ -156,7 +156,7 @@ fn extended(assignment: &Assignment, texts: [&str; 2]) -> Option<Assignment> {
     if assignment.free.is_empty() {
         return None;
     }
-    let stages = [InterpreterStage::Vertex, InterpreterStage::Fragment];
+    let stages = [Stage::Vertex, Stage::Fragment];
     let compiled = |at: usize| Compiled::compile(texts[at], stages[at]).map(Arc::new).expect("a text");
     let taken = assignment.taken(&compiled(0), &compiled(1), &assignment.judging_probes());
     let mut extended = assignment.with(&taken);

@@ -18,7 +18,7 @@ use ggrade::sandbox::{GradedSubmission, GradingTask};
 use ggrade::service::clock::Clock;
 use ggrade::service::grading::Judge;
 use reference::Assignment;
-use reference::assignment::Stage as ShaderStage;
+use reference::interpreter::Stage as ShaderStage;
 use serde_json::json;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};

@@ -20,10 +20,10 @@ mod textures;
 mod typeset;
 mod variants;
 
-use super::{Assignment, AssignmentError, FixedStage, Gradual, HandedIn, MANIFEST, Stage, error};
+use super::{Assignment, AssignmentError, FixedStage, Gradual, HandedIn, MANIFEST, error};
 use crate::Folder;
 use crate::accepted::AcceptedAnswer;
-use crate::interpreter::Texture;
+use crate::interpreter::{Stage, Texture};
 use crate::manifest::{self, Manifest};
 use crate::mistake::Mistake;
 use crate::text::both;

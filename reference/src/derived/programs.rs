@@ -6,7 +6,7 @@ use crate::accepted::{AcceptedAnswer, Computed};
 use crate::assignment::RubricLine;
 use crate::equation::Reads;
 use crate::fit::{Alternatives, Footprints, TOLERANCE, channel_agrees};
-use crate::interpreter::{Operator, ProgramSlip, Stage, outline, program_slips};
+use crate::interpreter::{Operator, ProgramSlip, outline, program_slips};
 use crate::mistake::{Condition, FoundMistake, Mistake};
 use crate::probes::ProbeSet;
 use std::collections::BTreeMap;
@@ -30,7 +30,7 @@ pub(super) fn mistakes(assignment: &Assignment) -> Vec<Mistake> {
         let is_part = |name: &str| assignment.equation.reads() == Reads::Outputs || name != "main";
         let own = outline::functions(&file.solution.text);
         let returns = |name: &str| own.iter().any(|function| function.name.text == name);
-        let slips = program_slips(&file.solution.text, Stage::from(file.stage), &is_part).unwrap_or_default();
+        let slips = program_slips(&file.solution.text, file.stage, &is_part).unwrap_or_default();
         for slip in slips {
             let Some(answer) = assignment.linked_with(file, slip.program.clone(), &slip.text) else { continue };
             // What a function returns has a name where it is known what it is for.

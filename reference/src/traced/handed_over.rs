@@ -3,10 +3,10 @@
 use super::inputs::vertex_run;
 use super::{Place, TracedProgram};
 use crate::Assignment;
-use crate::assignment::Stage;
 use crate::equation::Reads;
 use crate::feature::Feature;
 use crate::interpreter::Program;
+use crate::interpreter::Stage;
 use crate::pipeline::{POSITION, scalars};
 use std::collections::{BTreeMap, BTreeSet};
 

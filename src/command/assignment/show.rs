@@ -4,7 +4,8 @@ use super::super::{ExitStatus, assignment};
 use crate::cli::ShowArguments;
 use crate::language::{Language, Text};
 use reference::Assignment;
-use reference::assignment::{Feed, Stage, Stream, Uniform};
+use reference::assignment::{Feed, Stream, Uniform};
+use reference::interpreter::Stage;
 use reference::scene::{Draw, View};
 use std::fmt::Write;
 

@@ -4,9 +4,10 @@ use super::{Cause, PART_MISSING, PART_SCALED, UNEXPLAINED};
 use crate::diagnose::inside::Repaired;
 use crate::diagnose::{CONSTANTS_CHANGED, POSITION_CHANGED};
 use reference::Assignment;
-use reference::assignment::{RubricLine, Stage};
+use reference::assignment::RubricLine;
 use reference::derived::{definition, is_derived};
 use reference::fit::{FeatureDefect, FeatureExplanation, TermJudgement};
+use reference::interpreter::Stage;
 
 /// What is said of a feature.
 pub(super) const fn part_id(part: FeatureDefect) -> &'static str {

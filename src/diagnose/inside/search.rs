@@ -193,7 +193,7 @@ impl Search<'_, '_> {
 
     /// What was handed out of a stage, and what was handed in.
     fn texts(&self, stage: Stage) -> Option<(&str, &Source)> {
-        let starter = self.evidence.assignment.files.iter().find(|file| Stage::from(file.stage) == stage)?;
+        let starter = self.evidence.assignment.files.iter().find(|file| file.stage == stage)?;
         let (_, source) = self.evidence.sources.iter().find(|(own, _)| *own == stage)?;
         Some((starter.starter_shader(), source))
     }

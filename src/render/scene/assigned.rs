@@ -2,7 +2,8 @@
 
 use super::{DrawCall, DrawState, RenderScene};
 use crate::translate::VERTEX_NUMBER;
-use reference::assignment::{Input, Stage};
+use reference::assignment::Input;
+use reference::interpreter::Stage;
 use reference::interpreter::Type;
 use reference::probes::{ProbeSet, Spot};
 use reference::scene::{Draw, Instance, Pose, Vertex};

@@ -18,7 +18,7 @@ use crate::service::submit::{MAX_UPLOAD, too_large};
 use crate::slots::Slot;
 use askama::Template;
 use percent_encoding::{NON_ALPHANUMERIC, utf8_percent_encode};
-use reference::assignment::Stage;
+use reference::interpreter::Stage;
 use reference::typeset::{SumPart, Typeset};
 
 /// Digits of a folder's digest that tell its versions apart.

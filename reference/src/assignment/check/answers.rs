@@ -61,7 +61,7 @@ pub(super) fn are_defined(assignment: &Assignment) -> CheckResult<()> {
             if let Err(why) = assignment.is_defined(pose, &answer.pipeline, stage, poses.len()) {
                 let of_answer =
                     assignment.files.iter().find(|file| file.accepted.iter().any(|own| own.name == answer.name));
-                let own = why.filter(|(stage, _)| of_answer.is_some_and(|file| Stage::from(file.stage) == *stage));
+                let own = why.filter(|(stage, _)| of_answer.is_some_and(|file| file.stage == *stage));
                 return undefined(&answer.name, own.map(|(_, cause)| cause));
             }
         }
@@ -92,7 +92,7 @@ impl Assignment {
     fn file_of(&self, stage: Stage) -> Option<&str> {
         let solutions = self.files.iter().map(|file| (file.stage, &file.solution.name));
         let mut all = solutions.chain(self.fixed.iter().map(|fixed| (fixed.stage, &fixed.name)));
-        all.find(|(own, _)| Stage::from(*own) == stage).map(|(_, name)| name.as_str())
+        all.find(|(own, _)| *own == stage).map(|(_, name)| name.as_str())
     }
 
     /// Whether what two stages compute for a picture is defined, as far as is looked at; if not, in which stage and why, where that

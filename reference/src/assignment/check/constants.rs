@@ -18,7 +18,7 @@ pub(super) fn constants(files: &[HandedIn], entries: Vec<manifest::Constant>) ->
         return Ok(Vec::new());
     }
     let defined = |file: &HandedIn, name: &str, text: &str| -> CheckResult<Defined> {
-        Draft::constants(text, file.stage.into(), &names).map_err(|refusal| refused(name, &refusal))
+        Draft::constants(text, file.stage, &names).map_err(|refusal| refused(name, &refusal))
     };
     let in_file = |file: &HandedIn| {
         let HandedIn { solution, starter_name, starter, .. } = file;

@@ -4,7 +4,8 @@ use super::{CheckResult, solution};
 use crate::AssignmentError;
 use crate::assignment::{HandedIn, HostProgram, MANIFEST, Solution, error};
 use crate::host::{HostArray, Notice, UnreadableProgram};
-use crate::manifest::{self, Stage};
+use crate::interpreter::Stage;
+use crate::manifest;
 use crate::text::both;
 
 /// The solution as a shader, and how what is handed in becomes one, where the file is a program.

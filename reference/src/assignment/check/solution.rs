@@ -47,7 +47,7 @@ impl<'a> CheckedSolution<'a> {
         constants: &[manifest::Constant],
     ) -> CheckResult<Self> {
         if let Some(depth) = pipeline.fragment.outputs().iter().find(|output| output.name == DEPTH) {
-            let file = files.iter().find(|file| file.stage == manifest::Stage::Fragment);
+            let file = files.iter().find(|file| file.stage == Stage::Fragment);
             let message = both(
                 "`gl_FragDepth` is not supported in a solution: what covers what is decided before the fragment stage runs",
                 "模範解答では `gl_FragDepth` を使えません。何が手前にあるかは、フラグメントシェーダの実行前に決まります",
@@ -67,7 +67,7 @@ impl<'a> CheckedSolution<'a> {
     }
 
     fn of_definitions(file: &'a HandedIn, constants: &[&str]) -> CheckResult<Self> {
-        let draft = Draft::read(&file.solution.text, file.stage.into(), constants);
+        let draft = Draft::read(&file.solution.text, file.stage, constants);
         let draft = draft.map_err(|refusal| refused(&file.solution.name, &refusal))?;
         let first = draft.formulas().first().map(Formula::cell);
         let first = first.ok_or_else(|| {
@@ -80,8 +80,8 @@ impl<'a> CheckedSolution<'a> {
             )
         })?;
         let reads = match file.stage {
-            manifest::Stage::Vertex => Reads::Attributes,
-            manifest::Stage::Fragment => Reads::Varyings,
+            Stage::Vertex => Reads::Attributes,
+            Stage::Fragment => Reads::Varyings,
         };
         let mut solution = Self { file, reads, draft, first, why_whole: None, outputs: Vec::new() };
         if solution.draft.formulas().len() > MAX_DEFINITIONS {
@@ -113,7 +113,7 @@ impl<'a> CheckedSolution<'a> {
         let seen = &pipeline.fragment.outputs()[pipeline.colour].name;
         let colour = if seen.starts_with("gl_") { "colour" } else { seen };
         let clip = if colour == "position" { "clip_position" } else { "position" };
-        let position = has(manifest::Stage::Vertex);
+        let position = has(Stage::Vertex);
         let [declared, written] = match position {
             true => {
                 [format!("in vec4 {SHOWN_POSITION};"), format!("vec4 {clip} = {SHOWN_POSITION}; {POSITION} = {clip};")]
@@ -126,7 +126,7 @@ impl<'a> CheckedSolution<'a> {
         );
         let draft = Draft::read(&text, Stage::Vertex, &[]).map_err(|refusal| refused(&file.solution.name, &refusal))?;
         let first = draft.formulas().first().map_or(0, Formula::cell);
-        let written = match has(manifest::Stage::Fragment) {
+        let written = match has(Stage::Fragment) {
             true => &pipeline.fragment,
             false => &pipeline.vertex,
         };

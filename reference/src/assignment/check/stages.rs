@@ -27,7 +27,7 @@ impl Stages {
         let fixed = fixed.iter().map(|fixed| (&fixed.name, fixed.stage, &fixed.text));
         let mut stages: Vec<Compiled> = Vec::new();
         for (name, stage, text) in handed_in.chain(fixed) {
-            let compiled = compiled(name, stage.into(), text)?;
+            let compiled = compiled(name, stage, text)?;
             if let Some(other) = stages.iter().find(|other| other.stage == compiled.stage) {
                 let message = both(
                     format!("is a second stage of this kind, beside {}: keep one", other.name),
@@ -69,13 +69,13 @@ impl Stages {
     /// Other answers for a stage, linked with the stages of the other kind.
     pub fn accepted(
         &self,
-        stage: manifest::Stage,
+        stage: Stage,
         entries: &[manifest::Accepted],
         read: &dyn Fn(&str) -> CheckResult<String>,
     ) -> CheckResult<Vec<AcceptedAnswer>> {
         let answer = |entry: &manifest::Accepted| {
             let name = entry.file();
-            let own = compiled(name, stage.into(), &read(name)?)?;
+            let own = compiled(name, stage, &read(name)?)?;
             let other = |stage| if own.stage == stage { &own.program } else { &self.get(stage).program };
             let linked = Pipeline::link(other(Stage::Vertex), other(Stage::Fragment), None);
             let pipeline = linked.map_err(|what| error(name, what))?;
@@ -90,11 +90,11 @@ impl Stages {
     pub fn changed(&self, texts: &[(&HandedIn, String)], place: &str) -> CheckResult<AcceptedAnswer> {
         let mut own = Vec::new();
         for (file, text) in texts.iter().filter(|(file, text)| *text != file.solution.text) {
-            let program = Program::compile(text, file.stage.into()).map_err(|refusal| {
+            let program = Program::compile(text, file.stage).map_err(|refusal| {
                 let wrong = solution::refused(&file.solution.name, &refusal);
                 error(place, both(wrong.text().en, wrong.text().ja))
             })?;
-            own.push((Stage::from(file.stage), Arc::new(program)));
+            own.push((file.stage, Arc::new(program)));
         }
         let stage = |stage| {
             let changed = own.iter().find(|(own, _)| *own == stage).map(|(_, program)| program);
