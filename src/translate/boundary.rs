@@ -70,12 +70,15 @@ fn error(input: &StageVariable, outputs: &[StageVariable], source: &Source, vers
         ));
     }
     // `centroid` on one side alone is linked, by Mesa at least.
-    let of = |attribute: &StageVariable| attribute.qualifiers.interpolation;
+    let of = |attribute: &StageVariable| (attribute.qualifiers.interpolation, attribute.qualifiers.sample);
     let differs = version < FREE_INTERPOLATION && of(output) != of(input);
     let word = |attribute: &StageVariable| match of(attribute) {
-        InputInterpolation::Smooth => "smooth",
-        InputInterpolation::NoPerspective => "noperspective",
-        InputInterpolation::Flat => "flat",
+        (InputInterpolation::Smooth, true) => "sample",
+        (InputInterpolation::NoPerspective, true) => "noperspective sample",
+        (InputInterpolation::Flat, true) => "flat sample",
+        (InputInterpolation::Smooth, false) => "smooth",
+        (InputInterpolation::NoPerspective, false) => "noperspective",
+        (InputInterpolation::Flat, false) => "flat",
     };
     differs.then(|| {
         at(Text::new(

@@ -212,6 +212,8 @@ fn a_fragment_stage_takes_what_the_vertex_stage_hands_over() {
         // As Mesa links the two.
         assert_eq!(refused(version, "centroid in vec3 n;", "vec4(n, 1.0)"), None);
     }
+    let each_sample = refused("410", "sample in vec3 n;", "vec4(n, 1.0)").expect("a qualifier that the other has not");
+    assert!(each_sample.2.starts_with("`n` is `sample` here and `smooth` in the vertex shader;"), "{each_sample:?}");
     assert_eq!(refused("440", "flat in vec3 n;", "vec4(n, 1.0)"), None);
     let broken = refused("330", "in vec3 n;\n", "n + x").expect("an undeclared name");
     assert_eq!((broken.0, broken.1), (Stage::Fragment, Some(5)));
