@@ -3,7 +3,7 @@
 use crate::accepted::{AcceptedAnswer, Computed};
 use crate::assignment::Feed;
 use crate::fit::{TOLERANCE, agrees};
-use crate::interpreter::{ChangedPart, Scalar, Type, program_without_parts};
+use crate::interpreter::{ChangedPart, Scalar, Stage, Type, program_without_parts};
 use crate::probes::ProbeSet;
 use crate::rasteriser::Frame;
 use crate::value::rounded;
@@ -70,8 +70,8 @@ impl Assignment {
         let is_handed_in = |path: &str| {
             self.files.iter().filter(|file| file.program.is_none()).any(|file| {
                 let program = match file.stage {
-                    crate::interpreter::Stage::Vertex => &self.pipeline.vertex,
-                    crate::interpreter::Stage::Fragment => &self.pipeline.fragment,
+                    Stage::Vertex => &self.pipeline.vertex,
+                    Stage::Fragment => &self.pipeline.fragment,
                 };
                 program.uniforms().iter().any(|own| own.name == path)
             })

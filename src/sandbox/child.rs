@@ -212,6 +212,7 @@ impl Worker {
         let longest = Longest { head: REPORT_BYTES, body: frames_bytes };
         let (id, mut is_drawn) = (self.id(), false);
         let mut allowance = Allowance::new(id, deadline);
+        let end = allowance.end();
         let mut further = |reply: Option<&Reply>| match reply {
             None => allowance.later(),
             Some(Reply { outcome: Answered::Drawn, .. }) if !is_drawn => {
@@ -221,7 +222,7 @@ impl Worker {
             }
             Some(_) => None,
         };
-        let ending = match self.channel.exchange::<Reply>(&message, longest, Instant::now() + deadline, &mut further) {
+        let ending = match self.channel.exchange::<Reply>(&message, longest, end, &mut further) {
             Ok((reply, body)) if reply.id == request.id => return Ok((reply, body)),
             Ok(_) => Ending::Garbled("the answer to another question".into()),
             Err(LostAnswer::Garbled(detail)) => Ending::Garbled(detail),

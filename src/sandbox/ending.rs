@@ -239,6 +239,7 @@ mod tests {
             assert_eq!(ending.blame(), Blame::Ours);
         }
         assert_eq!(Ending::of(exit(3), "").blame(), Blame::Ours);
+        assert_eq!(Ending::of(exit(101), "panicked").blame(), Blame::Ours);
     }
 
     #[test]
@@ -249,10 +250,5 @@ mod tests {
         }
         let ours = Ending::Killed("SIGKILL".into());
         assert_eq!((ours.clone().while_judging(), ours.is_for_good()), (ours, false));
-    }
-
-    #[test]
-    fn other_exits_are_ours() {
-        assert_eq!(Ending::of(exit(101), "panicked").blame(), Blame::Ours);
     }
 }

@@ -58,6 +58,11 @@ pub fn fit(name: &str, slot: &Slot) -> NameFit {
     }
     let (own, others) = of_slot(slot);
     let is_text = |extension: &str| ["", "txt", "text"].contains(&extension) || OF_ANY.contains(&extension);
+    // `vertex.glsl`, `a.vs.txt`, `a.cpp.txt`.
+    let tells_slot = |stem: &str| match slot.program {
+        Some(_) => stem.strip_suffix(own).is_some_and(|rest| rest.ends_with('.')),
+        None => tells(stem, slot.stage),
+    };
     let wanted_stem = wanted.rsplit_once('.').map_or(wanted.as_str(), |(stem, _)| stem);
     let (stem, extension) = name.rsplit_once('.').unwrap_or((&name, ""));
     let is_wanted_stem = without_copy_mark(stem) == wanted_stem;
@@ -67,10 +72,7 @@ pub fn fit(name: &str, slot: &Slot) -> NameFit {
         _ if stem == wanted || is_wanted_stem && (is_text(extension) || others.contains(&extension)) => {
             NameFit::Renamed
         }
-        _ if stem.strip_suffix(own).is_some_and(|rest| rest.ends_with('.')) && is_text(extension) => NameFit::Renamed,
-        _ if others.contains(&extension) => NameFit::Renamed,
-        // `vertex.glsl`, `a.vs.txt`.
-        _ if is_text(extension) && slot.program.is_none() && tells(stem, slot.stage) => NameFit::Renamed,
+        _ if others.contains(&extension) || is_text(extension) && tells_slot(stem) => NameFit::Renamed,
         // What has another stage in its name is none of this one.
         _ if is_text(extension) && tells_stage(stem) => NameFit::Other,
         _ if OF_ANY.contains(&extension) => NameFit::Renamed,

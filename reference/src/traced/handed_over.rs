@@ -5,8 +5,7 @@ use super::{Place, TracedProgram};
 use crate::Assignment;
 use crate::equation::Reads;
 use crate::feature::Feature;
-use crate::interpreter::Program;
-use crate::interpreter::Stage;
+use crate::interpreter::{Program, Stage};
 use crate::pipeline::{POSITION, scalars};
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -19,9 +19,7 @@ pub(super) fn uncaught(code: &mut SpirvCode) {
 /// Makes `gl_VertexID`, where it is read, an input that is fed: what is drawn for probes has its vertices in another order than their
 /// mesh.
 pub(super) fn number_as_input(code: &mut SpirvCode) {
-    const IT: [u32; 2] = [decoration::BUILT_IN, built_in::VERTEX_ID];
-    let is_it = |head: &SpirvInstruction| head.opcode == op::DECORATE && head.operands.get(1..) == Some(&IT);
-    let Some(at) = code.heads.iter().position(is_it) else { return };
+    let Some(at) = decoration_of(code, built_in::VERTEX_ID) else { return };
     let id = code.heads[at].operands[0];
     if code.functions.iter().any(|instruction| instruction.operands.contains(&id)) {
         code.heads.remove(at);
@@ -30,11 +28,14 @@ pub(super) fn number_as_input(code: &mut SpirvCode) {
 
 /// The variable of `gl_SamplePosition`: the one sample of a pixel is in its middle.
 pub(super) fn sample_position(code: &SpirvCode) -> Option<u32> {
-    let is_it = |head: &&SpirvInstruction| {
-        head.opcode == op::DECORATE
-            && head.operands.get(1..) == Some(&[decoration::BUILT_IN, built_in::SAMPLE_POSITION])
-    };
-    code.heads.iter().find(is_it).map(|head| head.operands[0])
+    decoration_of(code, built_in::SAMPLE_POSITION).map(|at| code.heads[at].operands[0])
+}
+
+/// Where a variable is said to be this built-in one.
+fn decoration_of(code: &SpirvCode, which: u32) -> Option<usize> {
+    let said = [decoration::BUILT_IN, which];
+    let is_it = |head: &SpirvInstruction| head.opcode == op::DECORATE && head.operands.get(1..) == Some(&said);
+    code.heads.iter().position(is_it)
 }
 
 /// The variables of `gl_BaseVertex`, `gl_BaseInstance` and `gl_DrawID`, zero in a plain draw; renames

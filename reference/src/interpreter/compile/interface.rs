@@ -108,13 +108,17 @@ impl Compiler {
 
     /// Notes how the last input or output is interpolated, and where the program wants it.
     fn qualify(&mut self, storage: StorageQualifier, interpolation: Interpolation, location: Option<u32>) {
-        let all = match storage {
-            StorageQualifier::Input => &mut self.inputs,
-            StorageQualifier::Output => &mut self.outputs,
-            _ => return,
-        };
-        if let Some(last) = all.last_mut() {
+        if let Some(last) = self.last_exchanged(storage) {
             (last.interpolation, last.location) = (interpolation, location);
+        }
+    }
+
+    /// The last input or output.
+    fn last_exchanged(&mut self, storage: StorageQualifier) -> Option<&mut ProgramVariable> {
+        match storage {
+            StorageQualifier::Input => self.inputs.last_mut(),
+            StorageQualifier::Output => self.outputs.last_mut(),
+            _ => None,
         }
     }
 
@@ -184,9 +188,8 @@ impl Compiler {
                 self.builder.line = line;
                 self.exchange(storage, &format!("{}.{name}", block.name), kind, slot)?;
                 self.qualify(storage, interpolation, None);
-                let own = self.inputs.last_mut().filter(|own| own.slot == slot);
-                if let Some(own) = own.or(self.outputs.last_mut().filter(|own| own.slot == slot)) {
-                    own.written = format!("{instance}.{name}");
+                if let Some(last) = self.last_exchanged(storage) {
+                    last.written = format!("{instance}.{name}");
                 }
                 slot += kind.slots().unwrap_or(0) as Slot;
             }
