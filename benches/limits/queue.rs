@@ -98,6 +98,7 @@ async fn starts() -> Vec<f64> {
             received_at: web.clock.now(),
             priority: Priority::Student,
             senders: Vec::new(),
+            most_attempts: None,
         };
         web.store.add_submission(&new, None).await.expect("stored");
         let stored = Instant::now();

@@ -115,6 +115,7 @@ async fn store(state: &State, intake: Intake, key: Option<&StoredKey>) -> Result
                     received_at: now,
                     priority: Priority::Archive,
                     senders: Vec::new(),
+                    most_attempts: None,
                 });
             }
         }

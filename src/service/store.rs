@@ -64,7 +64,7 @@ pub use senders::Sender;
 pub use sign_ins::SignIn;
 pub use staff::{StaffMember, StaffRole, TeacherSession};
 pub use students::{EntryMatch, RosterLine, StudentRecord};
-pub use submissions::NewSubmission;
+pub use submissions::{Added, NewSubmission};
 pub use tokens::{AccessToken, OwnedToken, TokenScope};
 
 use sqlx::{PgPool, SqlitePool};

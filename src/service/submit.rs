@@ -9,7 +9,7 @@ use super::errors::Problem;
 use super::grading::{self, GradingResult};
 use super::idempotency;
 use super::identity::{Identity, new_id};
-use super::store::{NewSubmission, Priority, Sender, StoredKey, StoredSubmission, Submission, Via};
+use super::store::{Added, NewSubmission, Priority, Sender, StoredKey, StoredSubmission, Submission, Via};
 use super::{Config, metrics, store};
 use crate::diagnose::Hints;
 use crate::fault::Fault;
@@ -17,8 +17,8 @@ use crate::hand_in::HandIn;
 use crate::report::Report;
 use crate::slots::Slot;
 use crate::source;
-use allowed::may_hand_in;
 pub(super) use allowed::{closed, is_stranger, not_shown};
+use allowed::{may_hand_in, no_attempt_left};
 use axum::http::StatusCode;
 use files::checked;
 pub(super) use files::{check_text, for_slots};
@@ -165,11 +165,12 @@ async fn carry_out(state: &State, upload: Upload, key: Option<&StoredKey>) -> Re
         problem
     })?;
     let mut listener = state.queue.listen(&new.id);
-    let added = state.store.add_submission(&new, key).await;
-    if !matches!(added, Ok(true)) {
+    let added = state.store.add_submission(&new, key).await.map_err(Problem::from);
+    let is_stored = added.and_then(|added| is_stored(&new, added));
+    if !matches!(is_stored, Ok(true)) {
         drop(listener);
         state.queue.tidy();
-        return added.map(|_| None).map_err(Problem::from);
+        return is_stored.map(|_| None);
     }
     let submission = submission_of(&new, store::SubmissionState::Queued);
     metrics::uploaded(&submission, false);
@@ -177,6 +178,15 @@ async fn carry_out(state: &State, upload: Upload, key: Option<&StoredKey>) -> Re
     grading::files_wait(state).await;
     let outcome = in_time(state, &mut listener).await;
     Ok(Some(Receipt { submission, outcome }))
+}
+
+/// Whether a hand-in is stored, which it is not where its key is taken; a problem where no attempt is left.
+fn is_stored(new: &NewSubmission, added: Added) -> Result<bool, Problem> {
+    match added {
+        Added::Stored => Ok(true),
+        Added::KeyTaken => Ok(false),
+        Added::NoAttemptLeft => Err(no_attempt_left(new.most_attempts.unwrap_or_default())),
+    }
 }
 
 /// The answer to a file that is larger.
@@ -210,6 +220,7 @@ fn new_submission(
         received_at: now,
         priority: Priority::Student,
         senders: owner.into_iter().chain([Sender::Address(upload.address)]).collect(),
+        most_attempts: assignment.attempts.filter(|_| upload.via != Via::Editor),
     }
 }
 
@@ -235,7 +246,8 @@ async fn keep_known(
     mut report: Report,
 ) -> Result<Option<Receipt>, Problem> {
     report.of_files(crate::grade::sources(&state.assignment, &new.hand_in));
-    if !state.store.add_graded(&new, key, &report, state.clock.now()).await? {
+    let added = state.store.add_graded(&new, key, &report, state.clock.now()).await?;
+    if !is_stored(&new, added)? {
         return Ok(None);
     }
     let submission = submission_of(&new, store::SubmissionState::Graded);

@@ -21,6 +21,7 @@ on_both!(
     nothing_is_graded_twice_and_nothing_is_left,
     only_while_it_is_open,
     attempts_are_counted_by_student,
+    hand_ins_at_the_same_time_are_no_more_than_the_attempts,
     what_is_old_is_removed,
 );
 
@@ -148,6 +149,7 @@ async fn nothing_is_graded_twice_and_nothing_is_left(database: Database) {
             received_at: 0,
             priority: Priority::Student,
             senders: Vec::new(),
+            most_attempts: None,
         };
         store.add_submission(&new, None).await.expect("stored");
         assert!(store.claim(&["ggsample06"], None, "gone", 0, 1).await.expect("a claim").is_some());
@@ -204,6 +206,35 @@ async fn attempts_are_counted_by_student(database: Database) {
     }
     assert_eq!(hand_in("S1", 3).await.problem(), "attempts");
     assert_eq!(hand_in("s2", 3).await.status, StatusCode::CREATED);
+    bench.finish().await;
+}
+
+async fn hand_ins_at_the_same_time_are_no_more_than_the_attempts(database: Database) {
+    let bench = Bench::with(database, config(), Arc::new(Fake(|| Ok(()))), Clock::system()).await;
+    // The files of the second student are the same one, which has a report already: that is another way to the store.
+    bench.hand_in("", "the same").await;
+    let mut assignment = bench.state.store.assignment("ggsample06").await.expect("an assignment");
+    assignment.attempts = Some(2);
+    bench.state.store.set_assignment(&assignment).await.expect("set");
+    for (student, is_same) in [("S1", false), ("S2", true)] {
+        let mut senders = tokio::task::JoinSet::new();
+        for number in 0..6 {
+            let app = bench.app.clone();
+            let text = if is_same { "the same".to_owned() } else { format!("file {number}") };
+            let request = Request::post(format!("/api/v1/submissions?student={student}"))
+                .header(header::CONTENT_TYPE, "text/plain")
+                .header(header::AUTHORIZATION, format!("Bearer {TEACHER}"));
+            let request = request.body(Body::from(text)).expect("a request");
+            senders.spawn(async move { crate::bench::send(&app, request).await });
+        }
+        let replies = senders.join_all().await;
+        let (stored, refused): (Vec<_>, Vec<_>) = replies.iter().partition(|reply| reply.status == StatusCode::CREATED);
+        assert_eq!(stored.len(), 2, "{replies:?}");
+        assert!(refused.iter().all(|reply| reply.problem() == "attempts"), "{refused:?}");
+    }
+    let rows = bench.state.store.class("ggsample06", None).await.expect("a class");
+    let of = |student: &str| rows.iter().filter(|row| row.number.as_deref() == Some(student)).count();
+    assert_eq!((of("S1"), of("S2")), (2, 2));
     bench.finish().await;
 }
 

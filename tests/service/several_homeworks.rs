@@ -198,6 +198,7 @@ async fn what_is_not_served_waits(database: Database) {
         received_at,
         priority: Priority::Student,
         senders: Vec::new(),
+        most_attempts: None,
     };
     store.assignment("waves").await.expect("settings");
     // What came first would be graded first.

@@ -99,7 +99,7 @@ impl Store {
                 .bind(batch.created_at)
                 .execute(&mut *transaction)
                 .await?;
-            keep_key!(transaction, key, None, Some(&batch.id), batch.created_at);
+            keep_key!(transaction, key, None, Some(&batch.id), batch.created_at, false);
             for new in files {
                 insert_submission!(transaction, new, new.received_at, "queued");
             }

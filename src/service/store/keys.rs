@@ -28,9 +28,9 @@ pub(super) const INSERT: &str = "INSERT INTO idempotency_keys (id, fingerprint, 
                                  VALUES ($1, $2, $3, $4, $5) ON CONFLICT (id) DO NOTHING";
 
 /// Keeps the key of what this transaction stores, where there is one. Where it is taken, the function that this stands
-/// in stores nothing and says so.
+/// in stores nothing and gives `$taken`.
 macro_rules! keep_key {
-    ($transaction:expr, $key:expr, $submission:expr, $batch:expr, $now:expr) => {
+    ($transaction:expr, $key:expr, $submission:expr, $batch:expr, $now:expr, $taken:expr) => {
         if let Some(key) = $key {
             let submission: Option<&str> = $submission;
             let batch: Option<&str> = $batch;
@@ -44,7 +44,7 @@ macro_rules! keep_key {
                 .await?;
             if kept.rows_affected() == 0 {
                 $transaction.rollback().await?;
-                return Ok(false);
+                return Ok($taken);
             }
         }
     };

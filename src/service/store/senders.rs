@@ -23,6 +23,10 @@ pub(super) const TAKE_TURN: &str = "INSERT INTO senders (sender, turn) VALUES ($
                                     SET turn = CASE WHEN senders.turn > $2 THEN senders.turn ELSE $2 END + $3 \
                                     RETURNING turn - $3";
 
+/// Holds the row of sender `$1` until the transaction ends: others who send as the same one wait. Their turn stays.
+pub(super) const HOLD: &str = "INSERT INTO senders (sender, turn) VALUES ($1, 0) \
+                               ON CONFLICT (sender) DO UPDATE SET turn = senders.turn";
+
 /// Suspects who sent file `$1` until `$2`.
 pub(super) const SUSPECT: &str = "INSERT INTO senders (sender, turn, suspected_until) SELECT sender, 0, $2 FROM submissions \
                                   WHERE id = $1 AND sender IS NOT NULL \

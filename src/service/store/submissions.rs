@@ -2,7 +2,7 @@
 
 use super::keys::keep_key;
 use super::rows::{submission_columns, word};
-use super::senders::{Sender, TAKE_TURN};
+use super::senders::{HOLD, Sender, TAKE_TURN};
 use super::{Priority, Result, Store, StoredKey, Submission, Via, on, signed};
 use crate::diagnose::Hints;
 use crate::hand_in::{HandIn, HandedInFile};
@@ -37,6 +37,29 @@ pub struct NewSubmission {
     /// With whose files it takes turns among those of the same priority: nobody's, where it is graded in the order of arrival.
     /// The first of them is suspected where it has to be stopped.
     pub senders: Vec<Sender>,
+    /// How many attempts the first of the senders has in all; none: any number.
+    pub most_attempts: Option<u64>,
+}
+
+/// What became of a hand-in that was to be stored.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Added {
+    /// It is stored, and is never lost.
+    Stored,
+    /// Nothing is stored: the key of the request is taken.
+    KeyTaken,
+    /// Nothing is stored: all attempts are used up.
+    NoAttemptLeft,
+}
+
+/// The statement that counts the attempts of a student, or of a browser where nobody said who sits there, and their id for it.
+/// Drafts and teachers' batches are no attempts.
+fn attempts_of<'a>(owner_id: &'a str, student_id: Option<&'a str>) -> (&'static str, &'a str) {
+    const STUDENT: &str = "SELECT count(*) FROM submissions \
+                           WHERE assignment = $1 AND student_id = $2 AND via NOT IN ('editor', 'batch')";
+    const OWNER: &str = "SELECT count(*) FROM submissions \
+                         WHERE assignment = $1 AND owner_id = $2 AND via NOT IN ('editor', 'batch')";
+    student_id.map_or((OWNER, owner_id), |id| (STUDENT, id))
 }
 
 pub(super) const INSERT_UPLOAD: &str =
@@ -88,11 +111,31 @@ macro_rules! insert_submission {
 }
 pub(super) use insert_submission;
 
+/// Ends the function that this stands in, with nothing stored, where all attempts are used up. Whoever sends as the same one
+/// at the same time waits, so that nobody counts before the other has stored.
+macro_rules! check_attempts {
+    ($transaction:expr, $new:expr) => {
+        if let Some(most) = $new.most_attempts {
+            if let Some(sender) = $new.senders.first() {
+                sqlx::query(HOLD).bind(sender.key()).execute(&mut *$transaction).await?;
+            }
+            let (count, id) = attempts_of($new.owner_id.as_deref().unwrap_or_default(), $new.student_id.as_deref());
+            let made: i64 =
+                sqlx::query_scalar(count).bind(&$new.assignment).bind(id).fetch_one(&mut *$transaction).await?;
+            if made.unsigned_abs() >= most {
+                $transaction.rollback().await?;
+                return Ok(Added::NoAttemptLeft);
+            }
+        }
+    };
+}
+
 impl Store {
-    /// Stores a hand-in. When this is done, it is never lost. False, with nothing stored, where the request's key is taken.
-    pub async fn add_submission(&self, new: &NewSubmission, key: Option<&StoredKey>) -> Result<bool> {
+    /// Stores a hand-in.
+    pub async fn add_submission(&self, new: &NewSubmission, key: Option<&StoredKey>) -> Result<Added> {
         on!(&self.write, db => {
             let mut transaction = db.begin().await?;
+            check_attempts!(transaction, new);
             let mut turn = new.received_at;
             for sender in &new.senders {
                 let own: Millis = sqlx::query_scalar(TAKE_TURN)
@@ -104,32 +147,32 @@ impl Store {
                 turn = turn.max(own);
             }
             insert_submission!(transaction, new, turn, "queued");
-            keep_key!(transaction, key, Some(&new.id), None, new.received_at);
+            keep_key!(transaction, key, Some(&new.id), None, new.received_at, Added::KeyTaken);
             transaction.commit().await?;
         });
-        Ok(true)
+        Ok(Added::Stored)
     }
 
-    /// Stores a hand-in together with its report, which is known already. False, with nothing stored, where the request's key
-    /// is taken.
+    /// Stores a hand-in together with its report, which is known already.
     pub async fn add_graded(
         &self,
         new: &NewSubmission,
         key: Option<&StoredKey>,
         report: &Report,
         graded_at: Millis,
-    ) -> Result<bool> {
+    ) -> Result<Added> {
         let row = super::reports::ReportRow::of(report)?;
         on!(&self.write, db => {
             let mut transaction = db.begin().await?;
+            check_attempts!(transaction, new);
             insert_submission!(transaction, new, new.received_at, "graded");
             super::reports::bind_report!(sqlx::query(super::reports::INSERT), &new.id, graded_at, row, 1_i64)
                 .execute(&mut *transaction)
                 .await?;
-            keep_key!(transaction, key, Some(&new.id), None, new.received_at);
+            keep_key!(transaction, key, Some(&new.id), None, new.received_at, Added::KeyTaken);
             transaction.commit().await?;
         });
-        Ok(true)
+        Ok(Added::Stored)
     }
 
     /// The submission with this id.
@@ -155,14 +198,9 @@ impl Store {
         Ok(count > 0)
     }
 
-    /// How often somebody has handed in: a student, or a browser where nobody said who sits there. Drafts and teachers'
-    /// batches are no attempts.
+    /// How often somebody has handed in: a student, or a browser where nobody said who sits there.
     pub async fn attempts(&self, assignment: &str, owner_id: &str, student_id: Option<&str>) -> Result<u64> {
-        const STUDENT: &str = "SELECT count(*) FROM submissions \
-                               WHERE assignment = $1 AND student_id = $2 AND via NOT IN ('editor', 'batch')";
-        const OWNER: &str = "SELECT count(*) FROM submissions \
-                             WHERE assignment = $1 AND owner_id = $2 AND via NOT IN ('editor', 'batch')";
-        let (sql, id) = student_id.map_or((OWNER, owner_id), |id| (STUDENT, id));
+        let (sql, id) = attempts_of(owner_id, student_id);
         let count: i64 = on!(&self.read, db => sqlx::query_scalar(sql).bind(assignment).bind(id).fetch_one(db).await?);
         Ok(count.unsigned_abs())
     }

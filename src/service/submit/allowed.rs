@@ -66,15 +66,18 @@ pub(super) async fn may_hand_in(
         }
         (owner, student) => state.store.attempts(&assignment.id, owner.unwrap_or_default(), student).await?,
     };
-    if made >= limit {
-        return Err(Problem::new(
-            StatusCode::FORBIDDEN,
-            "attempts",
-            format!("All {limit} attempts are used up."),
-            format!("提出できる回数 ({limit} 回) を使い切りました。"),
-        ));
-    }
-    Ok(())
+    // Storing counts again, where nobody stores at the same time. Here it spares who has no attempt left the way there.
+    if made >= limit { Err(no_attempt_left(limit)) } else { Ok(()) }
+}
+
+/// The answer to who has made all attempts.
+pub(super) fn no_attempt_left(limit: u64) -> Problem {
+    Problem::new(
+        StatusCode::FORBIDDEN,
+        "attempts",
+        format!("All {limit} attempts are used up."),
+        format!("提出できる回数 ({limit} 回) を使い切りました。"),
+    )
 }
 
 /// The answer about a homework that students do not see yet.

@@ -72,6 +72,7 @@ async fn an_archive_is_graded_by_all_processes() {
             received_at: 0,
             priority: ggrade::service::store::Priority::Archive,
             senders: Vec::new(),
+            most_attempts: None,
         };
         state.store.add_submission(&new, None).await.expect("stored");
     }
