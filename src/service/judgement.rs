@@ -5,7 +5,7 @@ use super::Service;
 use super::errors::Problem;
 use super::identity::{Identity, Teacher, new_id};
 use super::store::{Appeal, StoredComment, StoredSubmission, Submission, Via};
-use crate::report::Report;
+use crate::report::{Report, RubricLine};
 use axum::http::StatusCode;
 
 /// Longest reason, question, answer or comment, in characters.
@@ -33,9 +33,19 @@ fn staff_id(teacher: &Teacher) -> Option<&str> {
     teacher.staff().map(|member| member.id.as_str())
 }
 
+/// Whether a line gives no points at all: it says only what somebody gave in it before the rubric had no such line any more.
+pub fn is_gone(line: &RubricLine) -> bool {
+    line.max_points <= 0.0
+}
+
+/// The lines of the rubric without those that are gone.
+fn lines(report: &Report) -> impl Iterator<Item = &RubricLine> {
+    report.rubric.iter().filter(|line| !is_gone(line))
+}
+
 /// The refusal of a line that the rubric does not have.
 fn no_such_line(report: &Report, line: &str) -> Problem {
-    let lines: Vec<&str> = report.rubric.iter().map(|line| line.id.as_str()).collect();
+    let lines: Vec<&str> = lines(report).map(|line| line.id.as_str()).collect();
     let lines = lines.join(", ");
     Problem::unprocessable(
         format!("The rubric has no line `{line}`. Its lines are: {lines}."),
@@ -53,7 +63,7 @@ pub async fn override_line(
     given: Option<(f64, &str)>,
 ) -> Result<String, Problem> {
     let report = report(stored)?;
-    let of_rubric = report.rubric.iter().find(|it| it.id == line);
+    let of_rubric = lines(report).find(|it| it.id == line);
     let id = &stored.submission.id;
     let Some((points, reason)) = given else {
         service.store.set_override(id, line, None, staff_id(teacher), service.clock.now()).await?;

@@ -49,7 +49,7 @@ async fn bench(database: Database) -> (Bench, Arc<Lenient>) {
 }
 
 /// Hands in a file of three lines that gets these points.
-async fn hand_in(bench: &Bench, number: &str, points: u32) -> String {
+pub async fn hand_in(bench: &Bench, number: &str, points: u32) -> String {
     let text = format!("{points}\nvoid main() {{}}\n// {}", ggrade::service::identity::new_id());
     let address = format!("/api/v1/submissions?student={number}");
     let reply = bench.send(request("POST", &address, "text/plain", text)).await;
@@ -57,16 +57,16 @@ async fn hand_in(bench: &Bench, number: &str, points: u32) -> String {
     reply.id()
 }
 
-async fn api(bench: &Bench, method: &str, address: &str, body: Value) -> Reply {
+pub async fn api(bench: &Bench, method: &str, address: &str, body: Value) -> Reply {
     bench.send(request(method, address, "application/json", body.to_string())).await
 }
 
-async fn report(bench: &Bench, id: &str) -> Value {
+pub async fn report(bench: &Bench, id: &str) -> Value {
     bench.get(&format!("/api/v1/submissions/{id}?lang=en")).await.json()["report"].clone()
 }
 
 /// The cells of a student in the class's CSV file: score, points of the specular line.
-async fn cells(bench: &Bench, number: &str) -> [String; 2] {
+pub async fn cells(bench: &Bench, number: &str) -> [String; 2] {
     let bytes = get(bench, "/api/v1/class/files/csv").await.body;
     let mut reader = csv::Reader::from_reader(bytes.strip_prefix(b"\xef\xbb\xbf").expect("a mark"));
     let headings = reader.headers().expect("headings").clone();
@@ -131,7 +131,7 @@ async fn an_overridden_line_counts_and_its_reason_is_read(database: Database) {
 }
 
 /// Has everything graded again, and waits until it is.
-async fn again(bench: &Bench) -> Regrading {
+pub async fn again(bench: &Bench) -> Regrading {
     let regrading = regrade::start(&bench.state, true, None).await.expect("begun");
     for _ in 0..600 {
         if bench.state.store.regrading_progress(&regrading.id).await.expect("progress").is_done() {

@@ -31,6 +31,7 @@ mod limits;
 mod lti;
 mod odd_files;
 mod old_database;
+mod overrides;
 mod places;
 mod privacy;
 mod process;

@@ -18,7 +18,7 @@ impl ReportWriter {
         self.gap();
         for line in &report.rubric {
             self.rubric_line(assignment, line, column);
-            if !full {
+            if !full || line.graded.is_some() {
                 match report.said_before(line) {
                     Some(before) => {
                         let label = before.label.get(self.language);

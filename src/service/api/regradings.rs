@@ -11,7 +11,7 @@ use crate::service::courses::at;
 use crate::service::errors::{Problem, ProblemJson};
 use crate::service::identity::Teacher;
 use crate::service::regrade::{self, differs};
-use crate::service::store::{Compared, OverriddenAgain, Progress, Regrading, StaffRole};
+use crate::service::store::{Compared, LineAgain, OverriddenAgain, Progress, Regrading, StaffRole};
 use crate::service::{Service, State};
 use axum::Json;
 use axum::extract::rejection::QueryRejection;
@@ -37,7 +37,8 @@ pub(super) struct RegradingJson {
     adopted_at: Option<String>,
     /// What it changes, as far as it is.
     changes: Vec<ChangeJson>,
-    /// Lines that somebody overrode, and that are graded otherwise now; the points that somebody gave stay.
+    /// Lines that somebody overrode, and that are graded otherwise now. The points that somebody gave stay, as the same share of a
+    /// line whose maximum changes.
     overridden: Vec<OverriddenJson>,
 }
 
@@ -75,10 +76,16 @@ pub(super) struct OverriddenJson {
     line: String,
     /// The points that somebody gave.
     points: f64,
+    /// What the line gave at most then; null: nobody knows any more.
+    max_points: Option<f64>,
     /// What the grading gave then,
     graded: f64,
     /// and gives now; null: there is no such line any more.
     graded_again: Option<f64>,
+    /// What the line gives at most now.
+    max_points_again: Option<f64>,
+    /// The points when this is adopted: the same share of the line.
+    points_again: Option<f64>,
 }
 
 /// How everything is to be graded again.
@@ -107,12 +114,15 @@ fn change(row: Compared) -> Option<ChangeJson> {
 
 async fn json(state: &State, regrading: Regrading) -> Result<RegradingJson, Problem> {
     let overridden = state.store.overridden_again(&regrading.id).await?.into_iter();
-    let line = |OverriddenAgain { overridden, graded_again }| OverriddenJson {
-        submission: submission(&overridden.submission_id),
-        line: overridden.line,
-        points: overridden.points,
-        graded: overridden.graded,
-        graded_again,
+    let line = |line: OverriddenAgain| OverriddenJson {
+        points_again: line.points(),
+        graded_again: line.again.map(|LineAgain { graded, .. }| graded),
+        max_points_again: line.again.map(|LineAgain { most, .. }| most),
+        submission: submission(&line.overridden.submission_id),
+        line: line.overridden.line,
+        points: line.overridden.points,
+        max_points: line.overridden.most,
+        graded: line.overridden.graded,
     };
     Ok(RegradingJson {
         progress: state.store.regrading_progress(&regrading.id).await?,

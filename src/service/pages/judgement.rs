@@ -12,7 +12,7 @@ use crate::report::text::number;
 use crate::service::State;
 use crate::service::errors::Problem;
 use crate::service::identity::{Teacher, Visitor};
-use crate::service::judgement::asker;
+use crate::service::judgement::{asker, is_gone};
 use crate::service::store::{Appeal, StoredSubmission, Via};
 
 /// What those who teach can do.
@@ -41,6 +41,8 @@ pub(super) struct LineForm {
     pub label: String,
     pub points: String,
     pub most: String,
+    /// Whether the rubric has no such line any more.
+    pub is_gone: bool,
     /// What the grading gave, and why it is overridden by whom.
     pub overridden: Option<(String, String, String)>,
 }
@@ -138,6 +140,7 @@ impl StaffForms {
             label: line.label.get(frame.language).to_owned(),
             points: number(line.points),
             most: number(line.max_points),
+            is_gone: is_gone(line),
             overridden: overrides.iter().find(|given| given.line == line.id).map(|given| {
                 let graded = report_fragment::points(line.graded);
                 (graded, given.reason.clone(), given.author.clone().unwrap_or_default())

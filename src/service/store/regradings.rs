@@ -1,9 +1,9 @@
 //! Grading everything again: the new results stand beside the reports until a teacher adopts them.
 
-use super::judgements::rescore;
+use super::overrides::rescore;
 use super::queue::{is_among, list};
 use super::rows::{from_word, submission_columns, word};
-use super::{OverriddenAgain, Progress, Result, Store, Submission, on, signed};
+use super::{Progress, Result, Store, Submission, on, signed};
 use crate::diagnose::Hints;
 use crate::hand_in::HandIn;
 use crate::report::{Report, Verdict};
@@ -170,10 +170,9 @@ impl Store {
         );
         let mut rows: Vec<Compared> = on!(&self.read, db => sqlx::query_as(SQL).bind(id).fetch_all(db).await?);
         let mut given: HashMap<String, f64> = HashMap::new();
-        for OverriddenAgain { overridden, graded_again } in self.overridden_again(id).await? {
-            // A line that is there no more keeps nothing.
-            let more = graded_again.map_or(0.0, |again| overridden.points - again);
-            *given.entry(overridden.submission_id).or_default() += more;
+        for line in self.overridden_again(id).await? {
+            let gain = line.gain();
+            *given.entry(line.overridden.submission_id).or_default() += gain;
         }
         for row in &mut rows {
             if let (Some((_, score, _)), Some(more)) = (&mut row.after, given.get(&row.submission.id)) {

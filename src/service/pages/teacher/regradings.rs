@@ -192,18 +192,31 @@ fn line(frame: &PageFrame, row: &Compared) -> RegradedLine {
 
 /// A line that somebody overrode, and what it gets now.
 fn overridden(state: &State, frame: &PageFrame, compared: &[Compared], line: OverriddenAgain) -> OverriddenLine {
-    let OverriddenAgain { overridden, graded_again } = line;
+    let (given, again) = (given(&line), line.again);
+    let overridden = line.overridden;
     let row = compared.iter().find(|row| row.submission.id == overridden.submission_id);
     let number_of = |row: &Compared| row.number.clone().unwrap_or_else(|| row.submission.name.clone());
     OverriddenLine {
         href: at(&format!("/r/{}#judgement", overridden.submission_id)),
         number: row.map(number_of).unwrap_or_default(),
         label: rubric_label(&state.assignment, &overridden.line, frame.language).to_owned(),
-        given: number(overridden.points),
+        given,
         reason: overridden.reason,
         author: overridden.author.unwrap_or_default(),
         graded: number(overridden.graded),
-        again: graded_again.map_or_else(|| frame.say("no such line", "項目なし").to_owned(), number),
+        again: again.map_or_else(|| frame.say("no such line", "項目なし").to_owned(), |again| number(again.graded)),
+    }
+}
+
+/// What somebody gave, and what becomes of it where the line changes: `35`, `35 / 40 → 17.5 / 20`, `35 / 40 → –`.
+fn given(line: &OverriddenAgain) -> String {
+    let before = &line.overridden;
+    let of = |points: f64, most: f64| format!("{} / {}", number(points), number(most));
+    let was = before.most.map_or_else(|| number(before.points), |most| of(before.points, most));
+    match (line.again, line.points()) {
+        (Some(again), Some(points)) if before.is_changed(again.most) => format!("{was} → {}", of(points, again.most)),
+        (Some(_), _) => number(before.points),
+        (None, _) => format!("{was} → –"),
     }
 }
 
