@@ -168,11 +168,15 @@ async fn what_is_overridden_survives_a_regrading_which_says_where_it_changes(dat
     regrade::adopt(&bench.state, &regrading.id).await.expect("adopted");
     assert_eq!(cells(&bench, "S1").await, ["95", "35"]);
     assert_eq!(cells(&bench, "S2").await, ["75", "20"]);
+    let lead = get(&bench, &format!("/teacher/regradings/{}", regrading.id)).await.all(".lead");
+    assert_eq!(lead, page.all(".lead"), "what was changed is known afterwards");
     let report = report(&bench, &ids[0]).await;
     assert_eq!((&report["score"], &report["rubric"][3]["graded_points"]), (&json!(95), &json!(20)));
     // Without the override it is the new grading that counts.
     form(&bench, &format!("/r/{}/override", ids[0]), "line=specular&wish=clear").await;
     assert_eq!(cells(&bench, "S1").await, ["80", "20"]);
+    let lead = get(&bench, &format!("/teacher/regradings/{}", regrading.id)).await.all(".lead");
+    assert_eq!(lead, page.all(".lead"), "and stays, whatever comes later");
     bench.finish().await;
 }
 

@@ -92,6 +92,8 @@ async fn what_is_overridden_is_the_same_share_of_a_line_and_is_told_where_the_li
     assert!(said.starts_with("Set to 5 of 10 points by the course's staff. by hand"), "{said}");
     assert!(said.contains("no such line any more"), "{said}");
     assert_eq!(cells(&bench, "S1").await, ["70", "20"]);
+    let adopted = get(&bench, &address).await;
+    assert_eq!(adopted.all("section[aria-labelledby=people] td"), page.all("section[aria-labelledby=people] td"));
     let gradebook = api(&bench, "GET", "/api/v1/gradebook", json!({})).await.text();
     assert!(gradebook.contains("70"), "{gradebook}");
     assert!(bench.get(&format!("/r/{id}?lang=en")).await.all("#rubric-shape").concat().contains("by hand"));

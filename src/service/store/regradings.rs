@@ -38,10 +38,12 @@ pub struct Compared {
     pub number: Option<String>,
     /// Name by the roster, where it is known.
     pub student_name: Option<String>,
-    /// The report's verdict, points and mistakes.
+    /// The report's verdict, points and mistakes; those that it had then, where the regrading is adopted.
     pub before: (Verdict, f64, Vec<String>),
     /// The same graded again; none where that is still to come, or failed by our fault.
     pub after: Option<(Verdict, f64, Vec<String>)>,
+    /// Whether both are kept as they were when the results took the place of the reports.
+    is_adopted: bool,
 }
 
 /// A submission that is to be graded again, with its bytes.
@@ -85,9 +87,12 @@ where
         let mistakes = |json: String| serde_json::from_str(&json).map_err(|error| sqlx::Error::Decode(Box::new(error)));
         let verdict: Option<String> = row.try_get("new_verdict")?;
         let score: Option<f64> = row.try_get("new_score")?;
+        let adopted: Option<f64> = row.try_get("score_adopted")?;
         let new_mistakes: Option<String> = row.try_get("new_mistakes")?;
         let after = match (verdict, score, new_mistakes) {
-            (Some(verdict), Some(score), Some(json)) => Some((from_word(verdict)?, score, mistakes(json)?)),
+            (Some(verdict), Some(score), Some(json)) => {
+                Some((from_word(verdict)?, adopted.unwrap_or(score), mistakes(json)?))
+            }
             _ => None,
         };
         Ok(Self {
@@ -96,6 +101,7 @@ where
             student_name: row.try_get("student_name")?,
             before: (from_word(row.try_get("verdict")?)?, row.try_get("score")?, mistakes(row.try_get("mistakes")?)?),
             after,
+            is_adopted: adopted.is_some(),
         })
     }
 }
@@ -162,8 +168,10 @@ impl Store {
         const SQL: &str = concat!(
             "SELECT ",
             submission_columns!(),
-            ", t.number, t.name AS student_name, r.verdict, r.score, r.mistakes, g.verdict AS new_verdict, \
-             g.score AS new_score, g.mistakes AS new_mistakes FROM regraded g \
+            ", t.number, t.name AS student_name, coalesce(g.verdict_before, r.verdict) AS verdict, \
+             coalesce(g.score_before, r.score) AS score, coalesce(g.mistakes_before, r.mistakes) AS mistakes, \
+             g.verdict AS new_verdict, g.score AS new_score, g.score_adopted, g.mistakes AS new_mistakes \
+             FROM regraded g \
              JOIN submissions s ON s.id = g.submission_id JOIN reports r ON r.submission_id = s.id \
              LEFT JOIN students t ON t.id = s.student_id WHERE g.regrading_id = $1 \
              ORDER BY s.received_at DESC, s.id"
@@ -174,7 +182,7 @@ impl Store {
             let gain = line.gain();
             *given.entry(line.overridden.submission_id).or_default() += gain;
         }
-        for row in &mut rows {
+        for row in rows.iter_mut().filter(|row| !row.is_adopted) {
             if let (Some((_, score, _)), Some(more)) = (&mut row.after, given.get(&row.submission.id)) {
                 *score += more;
             }
@@ -241,6 +249,12 @@ impl Store {
     /// Lets the results of a regrading take the place of the reports, its seed that of the assignment's, and its folder that of
     /// the one that is served.
     pub async fn adopt(&self, regrading: &Regrading, now: Millis) -> Result<()> {
+        const BEFORE: &str = "UPDATE regraded SET verdict_before = r.verdict, score_before = r.score, \
+                              mistakes_before = r.mistakes FROM reports r \
+                              WHERE regraded.regrading_id = $1 AND r.submission_id = regraded.submission_id";
+        const AFTER: &str = "UPDATE regraded SET score_adopted = r.score FROM reports r \
+                             WHERE regraded.regrading_id = $1 AND r.submission_id = regraded.submission_id \
+                             AND regraded.state = 'graded'";
         const REPORTS: &str = "UPDATE reports SET graded_at = $2, verdict = g.verdict, score = g.score, \
                                mistakes = g.mistakes, report = g.report, ggrade = $3, reused = 0 FROM regraded g \
                                WHERE g.regrading_id = $1 AND g.submission_id = reports.submission_id \
@@ -255,6 +269,7 @@ impl Store {
         let seed = signed(regrading.seed);
         on!(&self.write, db => {
             let mut transaction = db.begin().await?;
+            sqlx::query(BEFORE).bind(&regrading.id).execute(&mut *transaction).await?;
             sqlx::query(REPORTS)
                 .bind(&regrading.id)
                 .bind(now)
@@ -266,6 +281,7 @@ impl Store {
             for submission in &overridden {
                 rescore!(transaction, submission);
             }
+            sqlx::query(AFTER).bind(&regrading.id).execute(&mut *transaction).await?;
             sqlx::query(SUBMISSIONS).bind(&regrading.id).bind(seed).execute(&mut *transaction).await?;
             sqlx::query(ASSIGNMENT).bind(&regrading.assignment).bind(seed).execute(&mut *transaction).await?;
             sqlx::query(DONE).bind(&regrading.id).bind(now).execute(&mut *transaction).await?;
