@@ -1,7 +1,7 @@
 //! LTI 1.3 and its services (Advantage): a learning platform vouches for who comes, and grades go home.
 //!
 //! [`login`] begins a launch and [`launch`] takes what the platform vouches for ([`claims`]); [`people`] says who that is
-//! here, and [`contexts`] in which course; [`known`] gathers what is known of each platform. [`deep_linking`] lets a lecturer choose a homework, [`registration`] makes a platform and this service known to each
+//! here, [`roles`] what they may do, and [`contexts`] in which course; [`known`] gathers what is known of each platform. [`deep_linking`] lets a lecturer choose a homework, [`registration`] makes a platform and this service known to each
 //! other, [`scores`] sends grades, [`memberships`] fetches the roster, [`keys`] are those with which this service signs,
 //! [`platform`] asks a platform.
 
@@ -16,6 +16,7 @@ pub mod memberships;
 mod people;
 mod platform;
 pub mod registration;
+mod roles;
 pub mod scores;
 
 pub use platform::Connections;

@@ -1,8 +1,8 @@
 //! What a platform vouches for: the claims of its id token.
 
 use super::super::Service;
-use super::super::store::Platform;
-use super::refused;
+use super::super::store::{Platform, StaffRole};
+use super::{refused, roles};
 use crate::service::errors::Problem;
 use crate::service::id_tokens::{self, Issuer};
 use serde::{Deserialize, Deserializer};
@@ -32,7 +32,7 @@ pub(super) struct Claims {
     #[serde(rename = "https://purl.imsglobal.org/spec/lti/claim/resource_link")]
     pub resource_link: Option<ResourceLink>,
     #[serde(rename = "https://purl.imsglobal.org/spec/lti/claim/roles", default)]
-    pub roles: Vec<String>,
+    roles: Vec<String>,
     #[serde(rename = "https://purl.imsglobal.org/spec/lti/claim/context")]
     pub context: Option<ContextClaim>,
     #[serde(rename = "https://purl.imsglobal.org/spec/lti/claim/lis")]
@@ -145,20 +145,9 @@ impl Claims {
         Ok(claims)
     }
 
-    /// Whether one of the roles is of this kind, in the course or anywhere.
-    fn has_role(&self, names: &[&str]) -> bool {
-        let is_one = |role: &String| names.iter().any(|name| role.rsplit(['#', '/']).next() == Some(*name));
-        self.roles.iter().any(|role| is_one(role) && !role.contains("/institution/"))
-    }
-
-    /// Whether they are a teaching assistant, and no more.
-    pub fn is_assistant(&self) -> bool {
-        self.has_role(&["TeachingAssistant"])
-    }
-
-    /// Whether they teach the course.
-    pub fn is_staff(&self) -> bool {
-        self.has_role(&["Instructor", "TeachingAssistant", "Administrator", "ContentDeveloper"])
+    /// What they may do in the course; none for who does not teach it.
+    pub fn staff_role(&self) -> Option<StaffRole> {
+        roles::staff_role(&self.roles)
     }
 
     /// Their name, as far as the platform tells it.

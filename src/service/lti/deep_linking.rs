@@ -3,7 +3,7 @@
 use super::super::Service;
 use super::super::identity::new_id;
 use super::super::pages::PageFrame;
-use super::super::store::Platform;
+use super::super::store::{Platform, StaffRole};
 use super::claims::{Claims, DeepLinking};
 use super::keys::{issued_at, sign};
 use super::launch::HOMEWORK;
@@ -35,7 +35,7 @@ pub(super) async fn offer(
     claims: &Claims,
     frame: &PageFrame,
 ) -> Result<HomeworkChoice, Problem> {
-    if !claims.is_staff() || claims.is_assistant() {
+    if claims.staff_role() != Some(StaffRole::Lecturer) {
         return Err(refused("Only lecturers choose a homework.", "課題を選択できるのは担当教員だけです。"));
     }
     let wanted = claims.deep_linking.clone().ok_or_else(|| {

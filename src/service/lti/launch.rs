@@ -2,7 +2,7 @@
 
 use super::super::identity::{Jar, Visitor, become_student, has_launch, open_for, token_hash};
 use super::super::pages::{PageFrame, launch_lost, shown_choice};
-use super::super::store::{Link, Platform, Proof, StaffRole};
+use super::super::store::{Link, Platform, Proof};
 use super::super::{Service, State};
 use super::claims::{Claims, DEEP_LINKING, RESOURCE_LINK};
 use super::people::{Described, staff, student};
@@ -133,8 +133,7 @@ async fn open(
     if let Some(state) = &state {
         note_link(service, platform, claims, (&link, state)).await?;
     }
-    if claims.is_staff() {
-        let role = if claims.is_assistant() { StaffRole::Assistant } else { StaffRole::Lecturer };
+    if let Some(role) = claims.staff_role() {
         let member = staff(service, platform, &who, role).await?;
         let page =
             state.map_or_else(|| format!("{}/teacher", service.root()), |state| format!("{}/teacher", state.base()));

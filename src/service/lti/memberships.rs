@@ -8,7 +8,7 @@ use super::super::store::{Link, Platform, RosterLine, StudentRecord};
 use super::claims::id;
 use super::people::{Described, student};
 use super::platform::{Connections, Failure, parsed};
-use super::refused;
+use super::{refused, roles};
 use reqwest::Method;
 use reqwest::header::LINK;
 use serde::Deserialize;
@@ -43,8 +43,7 @@ struct PlatformMember {
 
 impl PlatformMember {
     fn is_student(&self) -> bool {
-        let is_learner = |role: &String| role.rsplit(['#', '/']).next() == Some("Learner");
-        self.roles.iter().any(is_learner) && self.status.as_deref().is_none_or(|status| status == "Active")
+        roles::is_learner(&self.roles) && self.status.as_deref().is_none_or(|status| status == "Active")
     }
 
     fn described(self) -> Described {
