@@ -40,7 +40,7 @@ pub use staff::{
 };
 pub use teacher::Teacher;
 pub(super) use teacher::{bearer, is_teachers_program};
-pub use tokens::{LONGEST_DAYS, WantedToken, end_token, make_token, tokens_for};
+pub use tokens::{LONGEST_DAYS, WantedToken, check_wanted_scope, end_token, make_token, tokens_for};
 pub use visitor::{Visitor, visit};
 
 use super::store::{Owner, StudentRecord, Submission};

@@ -56,6 +56,10 @@ async fn a_token_does_what_its_scope_says_in_its_owners_name(database: Database)
     let mut first = administrator(&bench).await;
     let mut lecturer = first.let_in("hanako", "lecturer").await;
     let mut assistant = lecturer.let_in("taro", "assistant").await;
+    let refused = assistant.form("/teacher/tokens", "/teacher/tokens", "name=x&scope=submit&days=3").await;
+    assert_eq!(refused.status, StatusCode::FORBIDDEN);
+    let offered = assistant.get("/teacher/tokens").await.all("#scope option").len();
+    assert_eq!((offered, lecturer.get("/teacher/tokens").await.all("#scope option").len()), (2, 3));
     let read = make(&mut lecturer, "name=figures&scope=read&days=30").await;
     let submit = make(&mut lecturer, "name=CI&scope=submit&days=30").await;
     let all = make(&mut lecturer, "name=script&scope=all&days=30").await;
@@ -73,6 +77,7 @@ async fn a_token_does_what_its_scope_says_in_its_owners_name(database: Database)
         (&submit, Method::DELETE, &delete, 403),
         // Never more than its owner may do.
         (&assistants, Method::GET, class, 200),
+        (&assistants, Method::POST, hand_in, 403),
         (&assistants, Method::DELETE, &delete, 403),
         (&all, Method::DELETE, &delete, 200),
     ];

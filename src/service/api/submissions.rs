@@ -13,7 +13,7 @@ use crate::service::identity::{Identity, Teacher, Visitor, course_secret, equal_
 use crate::service::language::Lang;
 use crate::service::limits::Client;
 use crate::service::roster::not_on_roster;
-use crate::service::store::{StoredSubmission, Via};
+use crate::service::store::{StaffRole, StoredSubmission, Via};
 use crate::service::submit::{Receipt, Upload, submit};
 use crate::service::{Service, State};
 use axum::Json;
@@ -39,7 +39,7 @@ pub(super) struct About {
     #[param(inline)]
     hints: Option<Hints>,
     /// Number of the student for whom it is handed in.
-    /// Needs `course` with `code`, or the teacher's token. Where the class has a roster, the number must be on it.
+    /// Needs `course` with `code`, or the token of a teacher who is no assistant. Where the class has a roster, the number must be on it.
     #[param(pattern = "^[A-Za-z0-9._-]{1,32}$")]
     student: Option<String>,
     /// Secret of the course link.
@@ -176,7 +176,10 @@ async fn identity(
     };
     let may_name = match &about.course {
         Some(secret) => equal_secrets(secret, &course_secret(state).await?),
-        None => teacher.is_some_and(|teacher| teacher.may_see(&state.assignment.id)),
+        None => match teacher.filter(|teacher| teacher.may_see(&state.assignment.id)) {
+            Some(teacher) => teacher.check_role(StaffRole::Lecturer).map(|()| true)?,
+            None => false,
+        },
     };
     if !may_name {
         return Err(Problem::new(

@@ -7,7 +7,9 @@ use super::{Tab, refused, said_of};
 use crate::service::Service;
 use crate::service::acts::Detail;
 use crate::service::errors::Problem;
-use crate::service::identity::{LONGEST_DAYS, Teacher, TeacherPage, WantedToken, end_token, make_token, tokens_for};
+use crate::service::identity::{
+    LONGEST_DAYS, Teacher, TeacherPage, WantedToken, check_wanted_scope, end_token, make_token, tokens_for,
+};
 use crate::service::store::{OwnedToken, TokenScope};
 use askama::Template;
 use axum::Form;
@@ -126,12 +128,13 @@ struct TokensNotice {
 
 async fn view(service: &Service, frame: PageFrame, teacher: &Teacher, said: TokensNotice) -> Result<Response, Problem> {
     let tokens = tokens_for(service, teacher).await?;
+    let offered = SCOPES.into_iter().filter(|scope| check_wanted_scope(teacher, *scope).is_ok());
     shown(
         TokensPage {
             place: Tab::Tokens,
             csrf: teacher.csrf(service),
             may_make: teacher.staff().is_some(),
-            scopes: SCOPES.map(|scope| (word(scope), scope_name(&frame, scope))).into(),
+            scopes: offered.map(|scope| (word(scope), scope_name(&frame, scope))).collect(),
             homeworks: service.ids(),
             longest: LONGEST_DAYS,
             tokens: tokens.into_iter().map(|owned| line(&frame, owned)).collect(),
