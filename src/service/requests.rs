@@ -5,6 +5,7 @@ use super::identity::{is_teachers_program, visitor_cookie};
 use super::limits::Counted;
 use super::{Config, Service, api, metrics, submit};
 use axum::extract::{MatchedPath, Request, State as Shared};
+use axum::http::request::Parts;
 use axum::http::{HeaderValue, Method, StatusCode, header};
 use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
@@ -29,6 +30,12 @@ pub(super) fn of_any_homework(path: &MatchedPath) -> String {
         Some(rest) => format!("{HOMEWORK}{}", rest.find('/').map_or("", |slash| &rest[slash..])),
         None => path.as_str().to_owned(),
     }
+}
+
+/// The route of a request within its homework, where it is of one.
+pub(super) fn route_of(parts: &Parts) -> String {
+    let route = parts.extensions.get::<MatchedPath>().map(of_any_homework).unwrap_or_default();
+    route.strip_prefix(HOMEWORK).unwrap_or(&route).to_owned()
 }
 
 /// The layer.

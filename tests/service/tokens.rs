@@ -75,6 +75,12 @@ async fn a_token_does_what_its_scope_says_in_its_owners_name(database: Database)
         (&submit, Method::GET, class, 200),
         (&submit, Method::POST, hand_in, 201),
         (&submit, Method::DELETE, &delete, 403),
+        // With the secrets of students it would do more than read.
+        (&read, Method::GET, "/api/v1/codes", 403),
+        (&submit, Method::GET, "/teacher/codes/file", 403),
+        (&read, Method::GET, "/teacher/settings", 403),
+        (&read, Method::GET, "/api/v1/course", 200),
+        (&all, Method::GET, "/api/v1/codes", 200),
         // Never more than its owner may do.
         (&assistants, Method::GET, class, 200),
         (&assistants, Method::POST, hand_in, 403),
@@ -86,6 +92,8 @@ async fn a_token_does_what_its_scope_says_in_its_owners_name(database: Database)
         assert_eq!(reply.status.as_u16(), status, "{method} {address}: {}", reply.text());
         assert!(status != 403 || ["scope", "role"].contains(&reply.problem().as_str()), "{}", reply.text());
     }
+    let link = async |token: &str| program(&bench, token, Method::GET, "/api/v1/course").await.json()["link"].clone();
+    assert!(link(&read).await.is_null() && link(&submit).await.is_null() && link(&all).await.is_string());
     let rows = lecturer.get("/teacher/log").await.all(".people tbody tr");
     assert!(rows[0].contains("hanako (by a token)") && rows[0].contains("Deleted"), "{rows:?}");
     assert!(rows[1].contains("hanako (by a token)") && rows[1].contains("S1"), "{rows:?}");

@@ -142,11 +142,11 @@ pub(super) struct CourseJson {
     pseudonyms: bool,
     /// Whether it is archived. Only an administrator changes that.
     is_archived: bool,
-    /// The course link; not to be changed here.
-    link: String,
+    /// The course link; not to be changed here. Null for a token of the scope `read` or `submit`.
+    link: Option<String>,
 }
 
-async fn course_json(service: &Service, headers: &HeaderMap) -> Result<CourseJson, Problem> {
+async fn course_json(service: &Service, teacher: &Teacher, headers: &HeaderMap) -> Result<CourseJson, Problem> {
     let course = service.store.course().await?;
     Ok(CourseJson {
         zone: course.zone_name().to_owned(),
@@ -154,7 +154,10 @@ async fn course_json(service: &Service, headers: &HeaderMap) -> Result<CourseJso
         title: course.title,
         pseudonyms: service.store.has_pseudonyms().await?,
         is_archived: service.store.archived_at().await?.is_some(),
-        link: course_link(service, headers).await?,
+        link: match teacher.sees_secrets() {
+            true => Some(course_link(service, headers).await?),
+            false => None,
+        },
     })
 }
 
@@ -169,7 +172,7 @@ pub(super) async fn read(
     Shared(service): Shared<Service>,
 ) -> Result<Response, Problem> {
     check_reader(&teacher, StaffRole::Lecturer)?;
-    let json = course_json(&service, &headers).await?;
+    let json = course_json(&service, &teacher, &headers).await?;
     Ok(unkept(json))
 }
 
@@ -188,7 +191,7 @@ pub(super) async fn change(
 ) -> Result<Response, Problem> {
     check_course(&caller, &service, StaffRole::Lecturer)?;
     let Json(patch) = patch.map_err(other)?;
-    let before = course_json(&service, &caller.1).await?;
+    let before = course_json(&service, &caller.0, &caller.1).await?;
     let (was_archived, link) = (before.is_archived, before.link.clone());
     let after: CourseJson = patched(before, &patch)?;
     if after.is_archived != was_archived {
@@ -206,7 +209,7 @@ pub(super) async fn change(
     service.store.set_course(&course.titled(&after.title)).await?;
     service.store.set_pseudonyms(after.pseudonyms).await?;
     service.store.set_archived(after.is_archived.then(|| service.clock.now())).await?;
-    let json = course_json(&service, &caller.1).await?;
+    let json = course_json(&service, &caller.0, &caller.1).await?;
     Ok(Detail::of(patch.to_string()).on(Json(json).into_response()))
 }
 
@@ -220,6 +223,6 @@ pub(super) async fn change(
 pub(super) async fn renew_link(caller: Caller, Shared(service): Shared<Service>) -> Result<Response, Problem> {
     check_course(&caller, &service, StaffRole::Lecturer)?;
     renew_course_secret(&service).await?;
-    let json = course_json(&service, &caller.1).await?;
+    let json = course_json(&service, &caller.0, &caller.1).await?;
     Ok(Detail::default().on(Json(json).into_response()))
 }

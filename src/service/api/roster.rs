@@ -102,6 +102,8 @@ fn code(service: &Service, course_link: &str, student: StudentRecord) -> CodeJso
 }
 
 /// The students' personal codes
+///
+/// A token must have the scope `all`.
 #[utoipa::path(
     get, operation_id = "list_codes", path = "/api/v1/codes", tag = "courses", security(("teacher" = [])),
     responses((status = 200, description = "Of the roster; without one of whoever gave a number", body = CodesJson), Refusals, Errors)

@@ -6,6 +6,7 @@ use super::secrets::equal_secrets;
 use super::{csrf, token_hash};
 use crate::service::Service;
 use crate::service::errors::Problem;
+use crate::service::requests::route_of;
 use crate::service::store::{DeletionTarget, StaffMember, StaffRole, TeacherSession, TokenScope};
 use axum::extract::Request;
 use axum::http::request::Parts;
@@ -26,6 +27,10 @@ pub struct Teacher {
     /// What a token of theirs is good for; everything where they come in by another way.
     scope: TokenScope,
 }
+
+/// What tells the course link or personal codes. With them one hands in as somebody else, so that a token that only reads does not
+/// read them.
+const SECRET: [&str; 4] = ["/api/v1/codes", "/teacher/codes", "/teacher/codes/file", "/teacher/settings"];
 
 /// The teacher of a request, as it was found.
 #[derive(Clone)]
@@ -94,10 +99,16 @@ impl Teacher {
         let hands_in = parts.method == Method::POST && parts.uri.path() == "/api/v1/submissions";
         match self.scope {
             TokenScope::All => Ok(()),
+            _ if SECRET.contains(&route_of(parts).as_str()) => Err(beyond_its_scope()),
             _ if parts.method.is_safe() => Ok(()),
             TokenScope::Submit if hands_in => Ok(()),
             TokenScope::Submit | TokenScope::Read => Err(beyond_its_scope()),
         }
+    }
+
+    /// Whether they read the secrets by which students hand in.
+    pub fn sees_secrets(&self) -> bool {
+        self.scope == TokenScope::All
     }
 
     /// Whether they read names and numbers of students; where not, pages that have these show pseudonyms, and whatever else
