@@ -12,6 +12,7 @@ mod csrf;
 mod extractors;
 mod join;
 mod login;
+mod origin;
 mod pseudonyms;
 mod secrets;
 mod staff;
@@ -31,6 +32,7 @@ pub use join::{
     check_course_link, course_link, course_secret, join, leave, normal_number, renew_course_secret, with_code,
 };
 pub use login::{LoginForm, login, logout, open_for};
+pub use origin::is_own_page;
 pub(super) use secrets::{equal_secrets, hex};
 pub use secrets::{hash_password, new_id, new_token, token_hash};
 pub(super) use staff::PASSWORD_SETTING;

@@ -21,6 +21,7 @@ use std::time::Duration;
 
 on_both!(
     a_history_belongs_to_its_browser,
+    an_older_browser_tells_the_origin_of_its_page,
     the_next_student_at_a_machine_sees_nothing,
     a_session_opens_the_teachers_part_and_ends,
     forms_of_other_pages_are_refused,
@@ -97,6 +98,16 @@ async fn hand_in(bench: &Bench, cookie: &str, site: &str, text: &str) -> String 
     bench.send(request.body(Body::from(text.to_owned())).expect("a request")).await.id()
 }
 
+/// The same from a browser that says nothing of the site, by the origin of the page.
+async fn hand_in_from(bench: &Bench, cookie: &str, origin: &str) -> String {
+    let request = Request::post("/api/v1/submissions")
+        .header(header::CONTENT_TYPE, "text/plain")
+        .header(header::COOKIE, cookie)
+        .header(header::HOST, "ggrade.example")
+        .header(header::ORIGIN, origin);
+    bench.send(request.body(Body::from(origin.to_owned())).expect("a request")).await.id()
+}
+
 async fn history(bench: &Bench, cookie: &str) -> Vec<String> {
     let visitor = visitor(&bench.state, cookie).await;
     let Some(owner) = visitor.identity.owner_id() else { return Vec::new() };
@@ -134,6 +145,21 @@ async fn a_history_belongs_to_its_browser(database: Database) {
     let joined = join(&bench.state, visitor(&bench.state, &theirs).await, &secret, "s1", &code).await.expect("joined");
     assert_eq!(history(&bench, &cookie_of(&bench.state, &joined)).await, [first]);
     assert!(history(&bench, &theirs).await.is_empty(), "the cookie from before is worth nothing");
+    bench.finish().await;
+}
+
+async fn an_older_browser_tells_the_origin_of_its_page(database: Database) {
+    let (bench, app) = bench(database, config(), Clock::system()).await;
+    let (cookie, _) = browser(&app).await;
+    let secret = course_secret(&bench.state).await.expect("a secret");
+    let joined = join(&bench.state, visitor(&bench.state, &cookie).await, &secret, "s1", "").await.expect("joined");
+    let mine = cookie_of(&bench.state, &joined);
+    for origin in ["https://elsewhere.example", "http://ggrade.example.elsewhere.example", "null"] {
+        hand_in_from(&bench, &mine, origin).await;
+        assert!(history(&bench, &mine).await.is_empty(), "{origin}");
+    }
+    let own = hand_in_from(&bench, &mine, "http://ggrade.example").await;
+    assert_eq!(history(&bench, &mine).await, [own]);
     bench.finish().await;
 }
 

@@ -9,7 +9,9 @@ use crate::service::acts::Detail;
 use crate::service::download;
 use crate::service::errors::Problem;
 use crate::service::idempotency::{self, RequestKey};
-use crate::service::identity::{Identity, Teacher, Visitor, course_secret, equal_secrets, normal_number, with_code};
+use crate::service::identity::{
+    Identity, Teacher, Visitor, course_secret, equal_secrets, is_own_page, normal_number, with_code,
+};
 use crate::service::language::Lang;
 use crate::service::limits::Client;
 use crate::service::roster::not_on_roster;
@@ -202,8 +204,7 @@ async fn identity(
 
 /// The browser, where the request comes from a page of ours: nobody else's page hands in under its cookie.
 async fn browser(state: &State, visitor: Visitor, headers: &HeaderMap) -> Result<Identity, Problem> {
-    let site = headers.get("sec-fetch-site").and_then(|value| value.to_str().ok()).unwrap_or("none");
-    if visitor.is_new() || !matches!(site, "same-origin" | "none") {
+    if visitor.is_new() || !is_own_page(state, headers) {
         return Ok(Identity::Nobody);
     }
     Ok(visitor.known(state).await?.identity)
