@@ -125,6 +125,14 @@ pub fn write(
     (written, first)
 }
 
+/// Whom Moodle would give the reports of a class.
+pub fn recipients<'a>(class: &'a Class, sheet: Option<&[u8]>) -> Result<Vec<feedback::Recipient<'a>>, Fault> {
+    match sheet {
+        Some(sheet) => worksheet::recipients(class, sheet),
+        None => Ok(feedback::by_number(class)),
+    }
+}
+
 /// Writes one format; what a teacher should know of it.
 fn one(class: &Class, format: ClassFormat, sheet: Option<&[u8]>, folder: &OutputFolder) -> Result<Vec<Text>, Fault> {
     let file = format.files()[0];
@@ -141,10 +149,7 @@ fn one(class: &Class, format: ClassFormat, sheet: Option<&[u8]>, folder: &Output
             Ok(filled.notes)
         }
         ClassFormat::MoodleFeedback => {
-            let recipients = match sheet {
-                Some(sheet) => worksheet::recipients(class, sheet)?,
-                None => feedback::by_number(class),
-            };
+            let recipients = recipients(class, sheet)?;
             let packed = folder.write_by(file, |out| feedback::write(class, &recipients, out))?;
             Ok(packed.notes.into_iter().chain(sheet.is_none().then(feedback::without_worksheet)).collect())
         }

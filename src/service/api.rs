@@ -5,6 +5,7 @@ mod assignments;
 pub(super) mod batches;
 pub(super) mod body;
 mod caller;
+mod class_files;
 mod courses;
 mod deletions;
 mod docs;
@@ -74,7 +75,7 @@ fn described() -> OpenApiRouter<Service> {
         .routes(routes!(batches::read))
         .routes(routes!(batches::events))
         .routes(routes!(batches::file, batches::filled))
-        .routes(routes!(batches::class_file))
+        .routes(routes!(class_files::read, class_files::filled))
         .routes(routes!(folders::read, folders::remove))
         .routes(routes!(folders::publish, folders::withdraw))
         .routes(routes!(extensions::list, extensions::set))

@@ -151,9 +151,10 @@ async fn no_change_is_made_that_a_page_of_another_site_asks_for(database: Databa
 }
 
 /// What an assistant may change: judgements, what is made to be downloaded, and what is their own.
-const OF_ASSISTANTS: [&str; 11] = [
+const OF_ASSISTANTS: [&str; 12] = [
     "POST /teacher/appeals/{id}",
     "POST /teacher/downloads",
+    "POST /teacher/worksheet",
     "POST /teacher/batches/{id}/worksheet",
     "POST /teacher/tokens",
     "POST /teacher/tokens/{id}",

@@ -12,7 +12,7 @@ mod sheet;
 mod tests;
 
 use self::columns::{WorksheetColumns, says_no};
-use self::matching::{Match, Matching};
+use self::matching::{BLIND, Match, Matching};
 use self::points::Style;
 use self::raw::{CsvCell, written};
 use self::sheet::{Worksheet, WorksheetPerson};
@@ -20,7 +20,7 @@ use super::comment;
 use super::feedback::{self, Recipient};
 use super::names::{list, note};
 use super::plain::one_line;
-use crate::batch::class::{Class, ClassEntry, Outcome};
+use crate::batch::class::{Class, ClassEntry, Outcome, Participant};
 use crate::fault::Fault;
 use crate::language::Text;
 use std::collections::{BTreeSet, HashSet};
@@ -66,6 +66,29 @@ pub fn recipients<'a>(class: &'a Class, worksheet: &[u8]) -> Result<Vec<Recipien
         Some(Recipient { entry, name: person.name.unwrap_or(person.identifier), number: person.number })
     };
     Ok(sheet.rows.iter().filter_map(recipient).collect())
+}
+
+/// Somebody whom a worksheet lists.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Listed {
+    /// The full name, or what Moodle puts for it, with what the university knows them by beside it.
+    pub known_as: String,
+    /// How a download would name them where they hand in alone.
+    pub participant: Participant,
+}
+
+/// Whom a worksheet lists.
+pub fn listed(worksheet: &[u8]) -> Result<Vec<Listed>, Fault> {
+    let sheet = Worksheet::read(worksheet)?;
+    let one = |row: &Vec<CsvCell>| {
+        let WorksheetPerson { number, name, group, .. } = sheet.person(row)?.ok()?;
+        let numbers = sheet.columns.numbers.iter().flatten().filter_map(|column| sheet.text(row, *column));
+        let name = name.unwrap_or_else(|| BLIND[0].to_owned());
+        let known_as = numbers.fold(name.clone(), |so_far, number| format!("{so_far} {number}"));
+        let name = group.map_or(name.clone(), |group| format!("{group}-{name}"));
+        Some(Listed { known_as, participant: Participant { name, number: Some(number) } })
+    };
+    Ok(sheet.rows.iter().filter_map(one).collect())
 }
 
 /// New content for a cell.

@@ -8,7 +8,7 @@ use super::schema::{BatchJson, FilledFormatName, FormatName, IdempotencyKey};
 use crate::batch::formats::ClassFormat;
 use crate::language::Language;
 use crate::service::acts::Detail;
-use crate::service::classes::{self, Download, DownloadOptions, DownloadSelection, Pick};
+use crate::service::classes::{self, Download, DownloadOptions, DownloadSelection};
 use crate::service::download::attachment;
 use crate::service::errors::Problem;
 use crate::service::identity::Teacher;
@@ -199,7 +199,7 @@ pub(super) async fn file(
 }
 
 /// A class in the format of this name, in the language that the address asks for, or else that of its readers.
-async fn made(
+pub(super) async fn made(
     state: &State,
     whose: DownloadSelection,
     format: &str,
@@ -243,40 +243,6 @@ pub(super) async fn filled(
 pub(super) struct OfQuery {
     /// Id of the assignment; where the service has one only, it may be left out.
     pub(super) assignment: Option<String>,
-}
-
-/// Which submissions of students count.
-#[derive(Clone, Copy, Debug, Default, Deserialize, utoipa::IntoParams)]
-#[serde(default)]
-#[into_params(parameter_in = Query)]
-pub(super) struct PickQuery {
-    /// `counted` (by the rules of the homework), `best` or `latest`.
-    #[param(inline)]
-    pick: Pick,
-}
-
-/// The class in a format of `ggrade batch`
-///
-/// Everyone of the roster, also who handed in nothing; without a roster, whoever handed in as somebody. Formats that
-/// students read are in the course's language, unless `lang` asks for another.
-#[utoipa::path(
-    get, operation_id = "read_class_file", path = "/api/v1/class/files/{format}", tag = "batches", security(("teacher" = [])),
-    params(("format" = FormatName, Path, description = "Name of the format"), PickQuery, OfQuery),
-    responses((status = 200, description = "The file", body = Vec<u8>, content_type = "application/octet-stream"), NotFound, Refusals, Errors)
-)]
-pub(super) async fn class_file(
-    teacher: Teacher,
-    Shared(service): Shared<Service>,
-    Lang(language): Lang,
-    Path(format): Path<String>,
-    (pick, of): (Result<Query<PickQuery>, QueryRejection>, Result<Query<OfQuery>, QueryRejection>),
-    uri: Uri,
-) -> Result<Response, Problem> {
-    let Query(PickQuery { pick }) = pick.map_err(super::body::other)?;
-    let Query(OfQuery { assignment }) = of.map_err(super::body::other)?;
-    let state = service.named(assignment.as_deref())?;
-    teacher.check(&state.assignment.id)?;
-    made(&state, DownloadSelection::Students(pick), &format, None, (&uri, language)).await
 }
 
 /// The format of this name.

@@ -2,11 +2,12 @@
 
 mod archive;
 mod members;
+mod participants;
 mod written;
 
 pub use archive::archive;
 
-use crate::batch::class::Outcome;
+use crate::batch::class::{Class, Outcome};
 use crate::batch::formats::{ClassFormat, worksheet};
 use crate::batch::output;
 use crate::language::{Language, Text};
@@ -129,6 +130,26 @@ impl DownloadOptions {
     }
 }
 
+/// Whether Moodle would give no report of the class to anybody.
+fn has_no_recipient(class: &Class, sheet: Option<&[u8]>) -> Result<bool, Problem> {
+    let recipients = output::recipients(class, sheet).map_err(|fault| Problem::of_fault(&fault))?;
+    Ok(recipients.is_empty())
+}
+
+/// The refusal of an archive of reports that would be empty.
+fn no_recipient(has_sheet: bool) -> Problem {
+    match has_sheet {
+        true => Problem::unprocessable(
+            "Nobody of the class is in this worksheet, so that there is no feedback to give. Is it of the same course, and does the roster have its names or numbers?",
+            "このワークシートにクラスの学生がいないため、渡すフィードバックがありません。同じ授業のワークシートか、氏名または番号が名簿と一致しているか確認してください。",
+        ),
+        false => Problem::unprocessable(
+            "No participant of Moodle is known for anybody, so that there is no feedback to give. Send Moodle's grading worksheet along: it says who they are.",
+            "Moodle の参加者が分からないため、渡すフィードバックがありません。Moodle の評定ワークシートを一緒に送ってください。",
+        ),
+    }
+}
+
 /// A class in one of the formats. Formats of several files come as a ZIP.
 pub async fn download(
     state: &State,
@@ -138,7 +159,7 @@ pub async fn download(
 ) -> Result<Download, Problem> {
     wanted.check()?;
     let DownloadOptions { format, sheet, language, with_pages } = wanted;
-    let (title, refused, members) = members(state, whose).await?;
+    let (title, refused, members) = members(state, whose, sheet.as_deref()).await?;
     let submissions: Vec<_> =
         members.iter().map(|member| member.stored.as_ref().map(|stored| stored.submission.clone())).collect();
     let wants = output::wants(&[format]);
@@ -155,6 +176,9 @@ pub async fn download(
         steps.done();
     }
     let mut class = blocking(state, move |state| class(state, title, refused, members, portraits, language)).await?;
+    if format == ClassFormat::MoodleFeedback && has_no_recipient(&class, sheet.as_deref())? {
+        return Err(no_recipient(sheet.is_some()));
+    }
     let temporary = blocking(state, |_| tempfile::tempdir().map_err(|error| disk(&error))).await?;
     if has_pages {
         for (number, (entry, submission)) in class.entries.iter_mut().zip(submissions).enumerate() {

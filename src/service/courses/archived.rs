@@ -9,7 +9,7 @@ use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
 
 /// The routes by which nothing of a course changes, though they are POST: coming and going, downloads, the list of courses, and opening the course again.
-const READING: [&str; 15] = [
+const READING: [&str; 17] = [
     "/join/{secret}",
     "/leave",
     "/teacher/login",
@@ -19,7 +19,9 @@ const READING: [&str; 15] = [
     "/api/v1/courses",
     "/api/v1/course",
     "/teacher/downloads",
+    "/teacher/worksheet",
     "/teacher/batches/{id}/worksheet",
+    "/api/v1/class/files/{format}",
     "/teacher/data/export",
     "/teacher/data/archive",
     "/api/v1/archive",

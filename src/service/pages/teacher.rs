@@ -36,6 +36,7 @@ mod settings;
 mod table;
 mod tokens;
 mod welcome;
+mod worksheets;
 
 use super::Service;
 use super::frame::PageFrame;
@@ -67,6 +68,7 @@ pub(super) fn router() -> Router<State> {
         .route("/teacher/downloads/{id}", get(downloads::page))
         .route("/teacher/downloads/{id}/events", get(downloads::events))
         .route("/teacher/downloads/{id}/file", get(downloads::file))
+        .route("/teacher/worksheet", post(worksheets::of_class))
         .route("/teacher/settings", get(settings::page).post(settings::save))
         .route("/teacher/course", post(settings::save_course))
         .route("/teacher/settings/link", post(settings::renew))

@@ -12,6 +12,8 @@ pub(super) struct WorksheetColumns {
     pub can_change: Option<usize>,
     pub feedback: Option<usize>,
     pub full_name: Option<usize>,
+    /// What the university knows people by, as far as the site shows it.
+    pub numbers: [Option<usize>; 2],
     /// The group that hands in together; only in assignments where groups do.
     pub group: Option<usize>,
 }
@@ -20,6 +22,8 @@ pub(super) struct WorksheetColumns {
 const GRADE: [&str; 4] = ["grade", "評定", "評点", "成績"];
 const IDENTIFIER: [&str; 5] = ["identifier", "id", "識別子", "識別番号", "参加者id"];
 const FULL_NAME: [&str; 4] = ["fullname", "フルネーム", "氏名", "姓名"];
+const ID_NUMBER: [&str; 4] = ["idnumber", "idナンバー", "学籍番号", "学生番号"];
+const USERNAME: [&str; 3] = ["username", "ユーザ名", "ユーザー名"];
 const STATUS: [&str; 3] = ["status", "ステータス", "状態"];
 const GROUP: [&str; 2] = ["group", "グループ"];
 const SCALE: [&str; 4] = ["scale", "尺度", "評価尺度", "評定尺度"];
@@ -58,6 +62,7 @@ impl WorksheetColumns {
             can_change: position(&is_can_change),
             feedback: position(&is_feedback),
             full_name: position(&|name| FULL_NAME.contains(&name)),
+            numbers: [position(&|name| ID_NUMBER.contains(&name)), position(&|name| USERNAME.contains(&name))],
             group,
         })
     }
@@ -147,6 +152,7 @@ mod tests {
         can_change: Some(5),
         feedback: Some(8),
         full_name: Some(1),
+        numbers: [None, None],
         group: None,
     };
 

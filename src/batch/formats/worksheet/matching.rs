@@ -12,7 +12,7 @@ use std::collections::{BTreeSet, HashMap};
 use unicode_normalization::UnicodeNormalization;
 
 /// What Moodle up to 4.0 puts for a name under blind marking.
-const BLIND: [&str; 2] = ["Participant", "参加者"];
+pub(super) const BLIND: [&str; 2] = ["Participant", "参加者"];
 
 /// What was found for a row.
 #[derive(Clone, Debug, PartialEq)]

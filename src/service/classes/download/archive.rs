@@ -106,7 +106,7 @@ async fn homework(
     let folder = root.join(&id);
     let failed = |error: std::io::Error| Problem::of_fault(&disk(&error));
     std::fs::create_dir_all(folder.join("students")).map_err(failed)?;
-    let (title, refused, members) = members(state, DownloadSelection::Students(Pick::Counted)).await?;
+    let (title, refused, members) = members(state, DownloadSelection::Students(Pick::Counted), None).await?;
     let submissions: Vec<_> =
         members.iter().map(|member| member.stored.as_ref().map(|stored| stored.submission.clone())).collect();
     steps.expect(2 * submissions.iter().flatten().count());

@@ -1,5 +1,6 @@
 //! Who is in a download, and what stands for each.
 
+use super::participants::participants;
 use super::{DownloadSelection, Pick};
 use crate::batch::class::{Class, FileLocation, Outcome, Participant, Refused, Student};
 use crate::batch::intake::{HandInContent, StudentWork};
@@ -11,7 +12,7 @@ use crate::service::State;
 use crate::service::classes::people::{Person, people};
 use crate::service::errors::Problem;
 use crate::service::store::{ClassRow, StoredSubmission};
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
 /// One student of a class, with what stands for them.
@@ -23,9 +24,11 @@ pub(super) struct ClassMember {
     pub(super) note: Option<Text>,
 }
 
+/// Everyone of a download. Moodle's worksheet says who of the class its participants are; those of an archive are known.
 pub(super) async fn members(
     state: &State,
     whose: DownloadSelection,
+    sheet: Option<&[u8]>,
 ) -> Result<(String, Vec<Refused>, Vec<ClassMember>), Problem> {
     match whose {
         DownloadSelection::Batch(batch) => {
@@ -45,11 +48,16 @@ pub(super) async fn members(
         DownloadSelection::Students(pick) => {
             let mut members: Vec<ClassMember> = Vec::new();
             let mut keys = HashSet::new();
+            let mut participants = match sheet {
+                Some(sheet) => participants(state, sheet).await?,
+                None => HashMap::new(),
+            };
             for person in people(state).await?.class {
                 let chosen = chosen(&person, pick).or(person.rows.first());
                 let (stored, hand_in) = with_files(state, chosen.map(|row| row.row.submission.id.as_str())).await?;
                 let path = stored.as_ref().map(|stored| stored.submission.name.clone());
-                let student = student(person.number, person.name, person.moodle, &person.key, &mut keys);
+                let moodle = participants.remove(&person.key).or(person.moodle);
+                let student = student(person.number, person.name, moodle, &person.key, &mut keys);
                 members.push(ClassMember { student, path, stored, hand_in, note: person.note });
             }
             members.sort_by(|a, b| a.student.key.cmp(&b.student.key));

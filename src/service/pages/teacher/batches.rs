@@ -3,17 +3,14 @@
 use super::super::datetime::TimeElement;
 use super::super::frame::PageFrame;
 use super::super::shown;
-use super::downloads::{DownloadOffer, begun, formats};
+use super::downloads::{DownloadOffer, formats};
 use super::table::{StudentTable, TableFilter};
+use super::worksheets::filled;
 use super::{Tab, refused};
-use crate::batch::formats::ClassFormat;
-use crate::language::Language;
 use crate::service::State;
 use crate::service::acts::Detail;
 use crate::service::api::archive::UploadedArchive;
-use crate::service::api::batches::named;
-use crate::service::api::body::other;
-use crate::service::classes::{self, DownloadOptions, DownloadSelection, Person, of_batch};
+use crate::service::classes::{self, DownloadSelection, Person, of_batch};
 use crate::service::courses::at;
 use crate::service::errors::Problem;
 use crate::service::identity::{LecturerPage, Teacher, TeacherPage};
@@ -64,6 +61,8 @@ struct BatchPage {
     files: String,
     of_batch: String,
     query: &'static str,
+    /// Where the form for Moodle's worksheet leads.
+    worksheet: String,
     /// What is wrong with the worksheet that was sent.
     problem: Option<String>,
 }
@@ -179,6 +178,7 @@ async fn view_one(
             files: at(&format!("/api/v1/batches/{}/files", batch.id)),
             of_batch: batch.id.clone(),
             query: "",
+            worksheet: format!("{}/batches/{}/worksheet", frame.teacher(), batch.id),
             title: batch.title,
             id: batch.id,
             problem,
@@ -198,7 +198,9 @@ pub(in crate::service::pages) async fn worksheet(
     form: Result<Multipart, MultipartRejection>,
 ) -> Result<Response, Problem> {
     let batch = found(&state, &id).await?;
-    match filled(&state, &teacher, batch.clone(), frame.course.language, form).await {
+    let back = format!("{}/batches/{id}", frame.teacher());
+    let whose = DownloadSelection::Batch(batch.clone());
+    match filled(&state, &teacher, whose, frame.course.language, back, form).await {
         Err(problem) if problem.status.is_client_error() => {
             let detail = problem.detail.get(frame.language).replace('`', "");
             let page = view_one(&state, &teacher, frame, batch, &TableFilter::default(), Some(detail)).await?;
@@ -206,28 +208,4 @@ pub(in crate::service::pages) async fn worksheet(
         }
         answer => answer,
     }
-}
-
-async fn filled(
-    state: &State,
-    teacher: &Teacher,
-    batch: Batch,
-    language: Language,
-    form: Result<Multipart, MultipartRejection>,
-) -> Result<Response, Problem> {
-    let mut form = form.map_err(other)?;
-    let (mut csrf, mut sheet, mut format) = (String::new(), Vec::new(), ClassFormat::MoodleWorksheet);
-    while let Some(field) = form.next_field().await.map_err(other)? {
-        match field.name().unwrap_or_default() {
-            "format" => format = named(&field.text().await.map_err(other)?)?,
-            "csrf" => csrf = field.text().await.map_err(other)?,
-            "sheet" => sheet = field.bytes().await.map_err(other)?.to_vec(),
-            _ => {}
-        }
-    }
-    teacher.check_csrf(state, &csrf)?;
-    let wanted = DownloadOptions { format, sheet: Some(sheet), language, with_pages: false };
-    wanted.check()?;
-    let back = format!("{}/teacher/batches/{}", state.base(), batch.id);
-    Ok(begun(state, DownloadSelection::Batch(batch), wanted, back))
 }

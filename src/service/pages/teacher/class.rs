@@ -11,7 +11,7 @@ use crate::service::State;
 use crate::service::classes::{People, Person, PersonStanding, people};
 use crate::service::courses::at;
 use crate::service::errors::Problem;
-use crate::service::identity::TeacherPage;
+use crate::service::identity::{Teacher, TeacherPage};
 use askama::Template;
 use axum::extract::{Query, State as Shared};
 use axum::response::Response;
@@ -51,6 +51,9 @@ struct ClassPage {
     of_batch: &'static str,
     /// By which an address of the API says which homework it is about.
     query: String,
+    /// Where the form for Moodle's worksheet leads, and what is wrong with what was sent.
+    worksheet: String,
+    problem: Option<String>,
     drawing: (f64, f64),
     spark: (f64, f64),
 }
@@ -69,13 +72,24 @@ struct StandingCount {
 pub(in crate::service::pages) async fn page(
     Shared(state): Shared<State>,
     TeacherPage(teacher): TeacherPage,
-    Query(mut filter): Query<TableFilter>,
+    Query(filter): Query<TableFilter>,
     frame: PageFrame,
+) -> Result<Response, Problem> {
+    view(&state, &teacher, frame, filter, None).await
+}
+
+/// The page, with what is wrong with a worksheet.
+pub(super) async fn view(
+    state: &State,
+    teacher: &Teacher,
+    frame: PageFrame,
+    mut filter: TableFilter,
+    problem: Option<String>,
 ) -> Result<Response, Problem> {
     if !teacher.sees_names() {
         filter.anonymous = "on".to_owned();
     }
-    let People { mut class, mut apart } = people(&state).await?;
+    let People { mut class, mut apart } = people(state).await?;
     // Pseudonyms follow an order that says nothing of names, and stay as they are when others join.
     class.sort_by(|a, b| a.key.cmp(&b.key));
     apart.sort_by(|a, b| a.key.cmp(&b.key));
@@ -101,7 +115,7 @@ pub(in crate::service::pages) async fn page(
     shown(
         ClassPage {
             place: Tab::Class,
-            csrf: teacher.csrf(&state),
+            csrf: teacher.csrf(state),
             title: student::title(&state.assignment, frame.language),
             file: id.clone(),
             notice: (filter.done == "deleted").then_some(deleted),
@@ -122,6 +136,8 @@ pub(in crate::service::pages) async fn page(
             files: at("/api/v1/class/files"),
             of_batch: "",
             query: state.query(),
+            worksheet: format!("{}/worksheet", frame.teacher()),
+            problem,
             filter,
             drawing: (WIDTH, HEIGHT),
             spark: SPARK,
