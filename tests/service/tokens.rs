@@ -11,6 +11,7 @@ use std::time::Duration;
 
 on_both!(
     a_token_is_of_the_course_where_it_was_made,
+    a_token_of_an_administrator_is_good_in_every_course,
     a_token_does_what_its_scope_says_in_its_owners_name,
     a_token_ends_by_its_day_by_its_owner_and_with_the_account,
     a_token_is_refused_where_it_makes_no_sense,
@@ -38,6 +39,37 @@ async fn a_token_is_of_the_course_where_it_was_made(database: Database) {
     for (course, status) in [("/c/cg-2027", StatusCode::OK), ("", StatusCode::UNAUTHORIZED)] {
         assert_eq!(program(&bench, &secret, Method::GET, &format!("{course}{class}")).await.status, status, "{course}");
     }
+}
+
+async fn a_token_of_an_administrator_is_good_in_every_course(database: Database) {
+    let bench = bench(database, Clock::system()).await;
+    crate::courses::made(&bench).await;
+    let mut first = administrator(&bench).await;
+    let mut lecturer = first.let_in("hanako", "lecturer").await;
+    let all = make(&mut first, "name=term&scope=all&days=30").await;
+    let read = make(&mut first, "name=figures&scope=read&days=30").await;
+    let one = make(&mut first, "name=one&scope=all&days=30&assignment=ggsample06").await;
+    let lecturers = make(&mut lecturer, "name=mine&scope=all&days=30").await;
+    let plan = "/c/cg-2027/api/v1/plan";
+    for (token, status) in [(&all, 200), (&read, 401), (&one, 401), (&lecturers, 401)] {
+        let reply = program(&bench, token, Method::GET, plan).await;
+        assert_eq!(reply.status.as_u16(), status, "{}", reply.text());
+    }
+    let made = program(&bench, &all, Method::POST, "/c/cg-2027/api/v1/course/link").await;
+    assert_eq!(made.status, StatusCode::OK, "{}", made.text());
+    let rows = first.get("/c/cg-2027/teacher/log").await.all(".people tbody tr");
+    assert!(rows[0].contains("prof@example.ac.jp (by a token)"), "{rows:?}");
+    // With the token it ends there as well.
+    let id = program(&bench, &all, Method::GET, "/api/v1/tokens").await.json()["tokens"]
+        .as_array()
+        .and_then(|tokens| tokens.iter().find(|token| token["name"] == "term").cloned())
+        .expect("a token")["id"]
+        .as_str()
+        .expect("an id")
+        .to_owned();
+    assert_eq!(first.form("/teacher/tokens", &format!("/teacher/tokens/{id}"), "").await.status, StatusCode::SEE_OTHER);
+    assert_eq!(program(&bench, &all, Method::GET, plan).await.status, StatusCode::UNAUTHORIZED);
+    bench.finish().await;
 }
 
 /// Makes a token by the page.

@@ -7,7 +7,7 @@ use super::{csrf, token_hash};
 use crate::service::Service;
 use crate::service::errors::Problem;
 use crate::service::requests::route_of;
-use crate::service::store::{DeletionTarget, StaffMember, StaffRole, TeacherSession, TokenScope};
+use crate::service::store::{AccessToken, DeletionTarget, StaffMember, StaffRole, TeacherSession, TokenScope};
 use axum::extract::Request;
 use axum::http::request::Parts;
 use axum::http::{Extensions, HeaderMap, Method, StatusCode, header};
@@ -74,15 +74,13 @@ impl Teacher {
         Ok(teacher)
     }
 
-    /// Whose token this is: the service's, that of a homework, or somebody's own, which is for the course where it was made.
+    /// Whose token this is: the service's, that of a homework, or somebody's own.
     async fn of_program(service: &Service, secret: &str) -> Result<Option<Self>, Problem> {
         if let Some(homework) = of_token(service, secret) {
             let all = TokenScope::All;
             return Ok(Some(Self { session: None, homework, staff: None, sees_names: true, scope: all }));
         }
-        let Some((token, owner)) = service.store.use_token(&token_hash(secret), service.clock.now()).await? else {
-            return Ok(None);
-        };
+        let Some((token, owner)) = used_token(service, &token_hash(secret)).await? else { return Ok(None) };
         let account = service.accounts().staff_member(&owner.id).await?.filter(|account| account.is_active);
         let owner = match account {
             Some(account) => in_course(service, account).await?,
@@ -198,6 +196,20 @@ impl Teacher {
     pub(super) fn session(&self) -> Option<&str> {
         self.session.as_deref()
     }
+}
+
+/// The token with this hash, and its owner: one of this course, or one that the first course gave an administrator for whatever
+/// they may do. An administrator is so in every course.
+async fn used_token(service: &Service, hash: &str) -> Result<Option<(AccessToken, StaffMember)>, Problem> {
+    let now = service.clock.now();
+    let own = service.store.use_token(hash, now).await?;
+    if own.is_some() || !service.is_beside() {
+        return Ok(own);
+    }
+    let everywhere = |(token, owner): &(AccessToken, StaffMember)| {
+        owner.role == StaffRole::Administrator && token.scope == TokenScope::All && token.assignment.is_none()
+    };
+    Ok(service.accounts().use_token(hash, now).await?.filter(everywhere))
 }
 
 /// Whose token this is: the id of a homework, none for the whole course; nothing where it is no teacher's.
