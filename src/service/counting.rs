@@ -2,7 +2,9 @@
 
 use super::State;
 use super::errors::Problem;
+use super::identity::Identity;
 use super::store::{HistoryRow, Submission, Via};
+use super::submit::{check_own, closed};
 use axum::http::StatusCode;
 use serde::{Deserialize, Serialize};
 
@@ -28,6 +30,16 @@ pub fn counted<T>(rows: &[T], counting: Counting, row: impl Fn(&T) -> &HistoryRo
         Counting::Last => graded().next(),
         Counting::Chosen => chosen().or_else(|| graded().next()),
     }
+}
+
+/// Lets whoever handed it in choose that it counts, until handing in ends.
+pub async fn choose_own(state: &State, identity: &Identity, submission: &Submission) -> Result<(), Problem> {
+    check_own(state, identity, submission).await?;
+    let settings = state.store.assignment_for(&state.assignment.id, identity.student_id()).await?;
+    if settings.is_closed(state.clock.now()) {
+        return Err(closed());
+    }
+    choose(state, submission).await
 }
 
 /// Lets a submission count, where those count that are chosen.

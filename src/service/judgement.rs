@@ -1,10 +1,11 @@
 //! What people judge beside the grading: a line of the rubric is given other points, a line of a file is commented on, and a
 //! student asks once in a homework for another look.
 
-use super::Service;
 use super::errors::Problem;
 use super::identity::{Identity, Teacher, new_id};
 use super::store::{Appeal, StoredComment, StoredSubmission, Submission, Via};
+use super::submit::check_own;
+use super::{Service, State};
 use crate::report::{Report, RubricLine};
 use axum::http::StatusCode;
 
@@ -121,15 +122,16 @@ pub fn asker(submission: &Submission) -> Option<&str> {
 
 /// Keeps what a student asks about a line of the rubric.
 pub async fn ask(
-    service: &Service,
+    state: &State,
     identity: &Identity,
     stored: &StoredSubmission,
     line: &str,
     question: &str,
-) -> Result<(), Problem> {
+) -> Result<Appeal, Problem> {
     let submission = &stored.submission;
     let report = report(stored)?;
-    let asker = asker(submission).filter(|_| identity.has_handed_in(submission)).ok_or_else(Problem::not_found)?;
+    check_own(state, identity, submission).await?;
+    let asker = asker(submission).ok_or_else(Problem::not_found)?;
     if !report.rubric.iter().any(|it| it.id == line) {
         return Err(no_such_line(report, line));
     }
@@ -139,7 +141,7 @@ pub async fn ask(
         assignment: submission.assignment.clone(),
         line: line.to_owned(),
         question: text(question)?,
-        asked_at: service.clock.now(),
+        asked_at: state.clock.now(),
         handler: None,
         taken_at: None,
         answer: None,
@@ -148,8 +150,8 @@ pub async fn ask(
         name: None,
         student_id: None,
     };
-    if service.store.add_appeal(&appeal, asker).await? {
-        return Ok(());
+    if state.store.add_appeal(&appeal, asker).await? {
+        return Ok(appeal);
     }
     Err(Problem::new(
         StatusCode::CONFLICT,

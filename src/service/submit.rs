@@ -17,7 +17,7 @@ use crate::hand_in::HandIn;
 use crate::report::Report;
 use crate::slots::Slot;
 use crate::source;
-pub(super) use allowed::{closed, is_stranger, not_shown};
+pub(super) use allowed::{check_own, closed, is_stranger, not_shown};
 use allowed::{may_hand_in, no_attempt_left};
 use axum::http::StatusCode;
 use files::checked;

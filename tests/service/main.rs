@@ -32,6 +32,7 @@ mod lti;
 mod odd_files;
 mod old_database;
 mod overrides;
+mod own;
 mod places;
 mod privacy;
 mod process;

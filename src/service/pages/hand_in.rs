@@ -16,7 +16,7 @@ use crate::service::identity::{Teacher, Visitor, code_needed};
 use crate::service::limits::Client;
 use crate::service::roster::not_on_roster;
 use crate::service::store::{self, Audience, Submission, Via};
-use crate::service::submit::{Receipt, Upload, check_text, closed, for_slots, is_stranger, not_shown, submit};
+use crate::service::submit::{Receipt, Upload, check_text, for_slots, is_stranger, not_shown, submit};
 use crate::source;
 use axum::extract::{Multipart, Query, Request, State as Shared};
 use axum::http::{HeaderMap, header};
@@ -260,13 +260,6 @@ async fn choose(
 ) -> Result<Response, Problem> {
     visitor.check_csrf(&state, &chosen.csrf)?;
     let (_, submission) = state.submission(&chosen.submission).await?;
-    if !visitor.identity.has_handed_in(&submission) {
-        return Err(Problem::not_found());
-    }
-    let settings = state.store.assignment_for(&state.assignment.id, visitor.identity.student_id()).await?;
-    if settings.is_closed(state.clock.now()) {
-        return Err(closed());
-    }
-    counting::choose(&state, &submission).await?;
+    counting::choose_own(&state, &visitor.identity, &submission).await?;
     Ok(Redirect::to(&format!("{}#attempts", state.page())).into_response())
 }

@@ -14,6 +14,7 @@ use crate::service::errors::Problem;
 use crate::service::identity::{Teacher, Visitor};
 use crate::service::judgement::{asker, is_gone};
 use crate::service::store::{Appeal, StoredSubmission, Via};
+use crate::service::submit::check_own;
 
 /// What those who teach can do.
 pub(super) struct StaffForms {
@@ -114,7 +115,8 @@ impl Judgement {
             (true, Some(asker)) => state.store.appeal_of(&submission.assignment, asker).await?,
             _ => None,
         };
-        let question = (is_theirs && appeal.is_none())
+        let may_ask = is_theirs && check_own(state, &visitor.identity, submission).await.is_ok();
+        let question = (may_ask && appeal.is_none())
             .then(|| Question { csrf: visitor.csrf(state), lines: asked_first(report, frame.language) });
         let shown = match appeal {
             Some(appeal) => Some(appeal).filter(|appeal| appeal.submission_id == submission.id),

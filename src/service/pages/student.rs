@@ -191,7 +191,7 @@ impl StudentPageParts<'_> {
         let settings = self.standing.settings;
         let counting = settings.counting;
         let counted = counted(self.history, counting, |row| row).map(|row| row.submission.id.as_str());
-        let may_choose = !settings.is_closed(self.standing.now);
+        let may_choose = self.standing.may_hand_in && !settings.is_closed(self.standing.now);
         let choice = CountingChoice { counting, counted, may_choose };
         self.history.iter().map(|row| Attempt::of(&self.frame, row, choice)).collect()
     }

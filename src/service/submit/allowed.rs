@@ -4,7 +4,7 @@ use super::Upload;
 use crate::service::State;
 use crate::service::courses::archived;
 use crate::service::errors::Problem;
-use crate::service::identity::code_needed;
+use crate::service::identity::{Identity, code_needed};
 use crate::service::roster::not_on_roster;
 use crate::service::store::{self, Audience, Via};
 use axum::http::StatusCode;
@@ -93,6 +93,21 @@ pub fn not_shown() -> Problem {
 /// The answer after the end.
 pub fn closed() -> Problem {
     Problem::new(StatusCode::FORBIDDEN, "closed", "Handing in is over.", "提出の受付は終了しました。")
+}
+
+/// Lets somebody pass who does something with what they handed in: it is theirs, they are in the class, and students see the
+/// homework.
+pub async fn check_own(state: &State, identity: &Identity, submission: &store::Submission) -> Result<(), Problem> {
+    if !identity.has_handed_in(submission) {
+        return Err(Problem::not_found());
+    }
+    if !state.store.assignment(&submission.assignment).await?.is_shown(state.clock.now()) {
+        return Err(not_shown());
+    }
+    match identity.student() {
+        Some(student) if is_stranger(state, student).await? => Err(not_on_roster(&student.number)),
+        _ => Ok(()),
+    }
 }
 
 /// Whether there is a roster, and this student is not on it.

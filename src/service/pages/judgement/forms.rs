@@ -99,8 +99,8 @@ pub(in crate::service::pages) async fn ask(
     Form(form): Form<QuestionForm>,
 ) -> Result<Response, Problem> {
     visitor.check_csrf(&service, &form.csrf)?;
-    let (_, stored) = service.stored(&id).await?;
-    judgement::ask(&service, &visitor.identity, &stored, &form.line, &form.question).await?;
+    let (state, stored) = service.stored(&id).await?;
+    judgement::ask(&state, &visitor.identity, &stored, &form.line, &form.question).await?;
     Ok(Redirect::to(&format!("/r/{id}#judgement")).into_response())
 }
 
