@@ -75,6 +75,7 @@ fn act(method: &Method, route: &str) -> Option<String> {
         ("POST", "/r/{id}/comments" | "/api/v1/submissions/{id}/comments")
         | ("DELETE", "/api/v1/submissions/{id}/comments/{comment}") => "comment",
         ("POST", "/teacher/appeals/{id}") | ("PUT", "/api/v1/appeals/{id}/answer") => "appeal",
+        ("PUT" | "DELETE", "/api/v1/appeals/{id}/handler") => "appeal",
         ("POST", "/teacher/delete") | ("DELETE", _) => "deleted",
         ("POST", "/api/v1/submissions") => "handed-in",
         (method, route) => return Some(format!("{method} {route}")),

@@ -1,5 +1,6 @@
 //! The HTTP API, and what else is no page.
 
+mod appeals;
 pub(super) mod archive;
 mod assignments;
 pub(super) mod batches;
@@ -16,6 +17,7 @@ mod insights;
 mod judgements;
 mod likeness;
 mod operations;
+mod own;
 pub(super) mod pictures;
 mod platforms;
 mod records;
@@ -79,12 +81,14 @@ fn described() -> OpenApiRouter<Service> {
         .routes(routes!(folders::read, folders::remove))
         .routes(routes!(folders::publish, folders::withdraw))
         .routes(routes!(extensions::list, extensions::set))
-        .routes(routes!(extensions::choose))
+        .routes(routes!(own::choose))
+        .routes(routes!(own::ask, own::asked))
         .routes(routes!(judgements::override_line, judgements::clear_override))
         .routes(routes!(judgements::add_comment))
         .routes(routes!(judgements::remove_comment))
-        .routes(routes!(judgements::appeals))
-        .routes(routes!(judgements::answer))
+        .routes(routes!(appeals::list))
+        .routes(routes!(appeals::answer))
+        .routes(routes!(appeals::take, appeals::release))
         .routes(routes!(insights::read))
         .routes(routes!(likeness::list))
         .routes(routes!(likeness::compare))

@@ -151,7 +151,7 @@ async fn no_change_is_made_that_a_page_of_another_site_asks_for(database: Databa
 }
 
 /// What an assistant may change: judgements, what is made to be downloaded, and what is their own.
-const OF_ASSISTANTS: [&str; 12] = [
+const OF_ASSISTANTS: [&str; 14] = [
     "POST /teacher/appeals/{id}",
     "POST /teacher/downloads",
     "POST /teacher/worksheet",
@@ -159,6 +159,8 @@ const OF_ASSISTANTS: [&str; 12] = [
     "POST /teacher/tokens",
     "POST /teacher/tokens/{id}",
     "PUT /api/v1/appeals/{id}/answer",
+    "PUT /api/v1/appeals/{id}/handler",
+    "DELETE /api/v1/appeals/{id}/handler",
     "POST /api/v1/submissions/{id}/comments",
     "DELETE /api/v1/submissions/{id}/comments/{comment}",
     "PUT /api/v1/submissions/{id}/rubric/{line}",

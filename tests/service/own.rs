@@ -4,15 +4,18 @@ use crate::bench::Bench;
 use crate::cluster::Database;
 use crate::codes::Guest;
 use crate::judgement::api;
-use crate::late::{RULES, bench, rules};
+use crate::late::{MINUTE, RULES, bench, csv, rules};
 use crate::on_both;
-use crate::roster::file;
+use crate::roster::{file, get};
 use axum::body::Body;
-use axum::http::{StatusCode, header};
-use ggrade::service::identity::personal_code;
-use serde_json::json;
+use axum::http::{Request, StatusCode, header};
+use ggrade::service::identity::{course_secret, personal_code};
+use serde_json::{Value, json};
 
-on_both!(who_is_not_in_the_class_lets_nothing_count_and_asks_nothing);
+on_both!(
+    who_is_not_in_the_class_lets_nothing_count_and_asks_nothing,
+    a_student_lets_something_count_and_asks_by_a_program,
+);
 
 async fn code(bench: &Bench, number: &str) -> String {
     let student = bench.state.store.student_by_number(number).await.expect("a store").expect("a student");
@@ -59,5 +62,58 @@ async fn who_is_not_in_the_class_lets_nothing_count_and_asks_nothing(database: D
     assert_eq!(both(&bench, &mine, &id).await, [StatusCode::NOT_FOUND; 2]);
     assert_eq!(hidden(false).await, StatusCode::OK);
     assert_eq!(both(&bench, &mine, &id).await, [StatusCode::SEE_OTHER; 2]);
+    bench.finish().await;
+}
+
+async fn a_student_lets_something_count_and_asks_by_a_program(database: Database) {
+    let (bench, clock) = bench(database).await;
+    rules(&bench, &format!("{RULES}&counting=chosen")).await;
+    let course = course_secret(&bench.state).await.expect("a secret");
+    let who = async |number: &str| format!("student={number}&course={course}&code={}", code(&bench, number).await);
+    let (mine, others) = (who("S1").await, who("S2").await);
+    let send = async |method: &str, address: String, body: Value| {
+        let request = Request::builder().method(method).uri(address).header(header::CONTENT_TYPE, "application/json");
+        bench.send(request.body(Body::from(body.to_string())).expect("a request")).await
+    };
+    let mut ids = Vec::new();
+    for points in ["90", "70"] {
+        clock.advance(MINUTE);
+        ids.push(bench.hand_in(&format!("?{mine}"), points).await.id());
+    }
+    let id = &ids[0];
+    let choice = format!("/api/v1/submissions/{id}/choice");
+    let total = async || csv(&bench, "S1").await("total");
+    assert_eq!(total().await, "70");
+    let wrong = mine.replace("code=", "code=0");
+    let elsewhere = mine.replace("course=", "course=0");
+    for (query, status) in [("", 404), (others.as_str(), 404), (wrong.as_str(), 403), (elsewhere.as_str(), 401)] {
+        let refused = send("POST", format!("{choice}?{query}"), Value::Null).await;
+        assert_eq!(refused.status.as_u16(), status, "{query}: {}", refused.text());
+    }
+    assert_eq!(send("POST", format!("{choice}?{mine}"), Value::Null).await.status, StatusCode::NO_CONTENT);
+    assert_eq!(total().await, "90");
+
+    let address = format!("/api/v1/submissions/{id}/appeal");
+    let question = json!({ "line": "specular", "question": "Why?" });
+    assert_eq!(send("POST", format!("{address}?{others}"), question.clone()).await.status, StatusCode::NOT_FOUND);
+    assert_eq!(send("GET", format!("{address}?{mine}"), Value::Null).await.status, StatusCode::NOT_FOUND);
+    let asked = send("POST", format!("{address}?{mine}"), question.clone()).await;
+    assert_eq!((asked.status, &asked.json()["question"]), (StatusCode::CREATED, &json!("Why?")), "{}", asked.text());
+    assert_eq!(send("POST", format!("{address}?{mine}"), question).await.status, StatusCode::CONFLICT);
+    // Somebody takes it, gives it back, takes it and answers; the student reads how far it is.
+    let read = async || send("GET", format!("{address}?{mine}"), Value::Null).await.json();
+    let appeal = asked.id();
+    let handler = format!("/api/v1/appeals/{appeal}/handler");
+    assert_eq!(send("PUT", handler.clone(), Value::Null).await.status, StatusCode::UNAUTHORIZED);
+    for (method, is_taken) in [("PUT", true), ("DELETE", false), ("PUT", true)] {
+        assert_eq!(api(&bench, method, &handler, Value::Null).await.status, StatusCode::NO_CONTENT);
+        assert_eq!(read().await["taken_at"].is_string(), is_taken);
+    }
+    let answer = format!("/api/v1/appeals/{appeal}/answer");
+    assert_eq!(api(&bench, "PUT", &answer, json!({ "answer": "So." })).await.status, StatusCode::NO_CONTENT);
+    assert_eq!(read().await["answer"], "So.");
+    assert_eq!(send("GET", format!("{address}?{others}"), Value::Null).await.status, StatusCode::NOT_FOUND);
+    let log = get(&bench, "/teacher/log").await.all(".people tbody tr");
+    assert_eq!(log.iter().filter(|row| row.contains("Handled a request")).count(), 4, "{log:?}");
     bench.finish().await;
 }

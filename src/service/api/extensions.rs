@@ -1,4 +1,4 @@
-//! `/api/v1/extensions`, and which submission counts: for teachers.
+//! `/api/v1/extensions`: for teachers.
 
 use super::batches::OfQuery;
 use super::body::unkept;
@@ -7,14 +7,13 @@ use super::refusals::{Errors, NotFound, Refusals};
 use super::schema::time;
 use crate::service::Service;
 use crate::service::acts::Detail;
-use crate::service::counting;
 use crate::service::errors::Problem;
 use crate::service::extensions::{beneficiary, grant};
 use crate::service::identity::Teacher;
 use crate::service::store::{Beneficiary, NamedExtension, StaffRole};
 use axum::Json;
 use axum::extract::rejection::{JsonRejection, QueryRejection};
-use axum::extract::{Path, Query, State as Shared};
+use axum::extract::{Query, State as Shared};
 use axum::http::StatusCode;
 use axum::response::{IntoResponse, Response};
 use serde::{Deserialize, Serialize};
@@ -110,26 +109,4 @@ pub(super) async fn set(
         Beneficiary::Group(group) => Detail::of(format!("{group}: {until} {reason}")),
     };
     Ok(Detail { assignment, ..detail }.on(StatusCode::NO_CONTENT.into_response()))
-}
-
-/// Let a submission count
-///
-/// Of homeworks in which the one counts that is chosen (409 in others); the latest choice holds.
-#[utoipa::path(
-    post, operation_id = "choose_submission", path = "/api/v1/submissions/{id}/choice", tag = "submissions", security(("teacher" = [])),
-    params(("id" = String, Path, description = "Id of the submission")),
-    responses((status = 204, description = "It counts"), (status = 409, description = "Nobody chooses in this homework", body = crate::service::errors::ProblemJson, content_type = "application/problem+json"), NotFound, Refusals, Errors)
-)]
-pub(super) async fn choose(
-    caller: Caller,
-    Shared(service): Shared<Service>,
-    Path(id): Path<String>,
-) -> Result<Response, Problem> {
-    check(&caller, &service, StaffRole::Lecturer)?;
-    let (state, submission) = service.submission(&id).await?;
-    caller.0.check(&submission.assignment)?;
-    counting::choose(&state, &submission).await?;
-    let assignment = Some(submission.assignment);
-    let detail = Detail { assignment, student_id: submission.student_id, ..Detail::default() };
-    Ok(detail.on(StatusCode::NO_CONTENT.into_response()))
 }

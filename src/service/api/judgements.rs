@@ -1,26 +1,25 @@
 //! What people judge beside the grading: for teachers.
 
-use super::batches::OfQuery;
-use super::body::unkept;
 use super::caller::{Caller, check_page};
 use super::refusals::{Errors, NotFound, Refusals};
-use super::schema::time;
 use crate::service::Service;
 use crate::service::acts::Detail;
-use crate::service::courses::at;
 use crate::service::errors::Problem;
-use crate::service::identity::Teacher;
-use crate::service::judgement::{self, Handling, handle};
-use crate::service::store::{Appeal, StoredComment, StoredSubmission};
+use crate::service::judgement;
+use crate::service::store::{StoredComment, StoredSubmission};
 use axum::Json;
-use axum::extract::rejection::{JsonRejection, QueryRejection};
-use axum::extract::{Path, Query, State as Shared};
+use axum::extract::rejection::JsonRejection;
+use axum::extract::{Path, State as Shared};
 use axum::http::StatusCode;
 use axum::response::{IntoResponse, Response};
 use serde::{Deserialize, Serialize};
 
 /// The submission with its report, for a teacher who may see it.
-async fn judged(service: &Service, (teacher, headers): &Caller, id: &str) -> Result<StoredSubmission, Problem> {
+pub(super) async fn judged(
+    service: &Service,
+    (teacher, headers): &Caller,
+    id: &str,
+) -> Result<StoredSubmission, Problem> {
     check_page(teacher, headers, service)?;
     let (_, stored) = service.stored(id).await?;
     teacher.check(&stored.submission.assignment)?;
@@ -28,7 +27,7 @@ async fn judged(service: &Service, (teacher, headers): &Caller, id: &str) -> Res
 }
 
 /// An answer with a line for the log.
-fn noted(stored: StoredSubmission, text: String, response: impl IntoResponse) -> Response {
+pub(super) fn noted(stored: StoredSubmission, text: String, response: impl IntoResponse) -> Response {
     let assignment = Some(stored.submission.assignment);
     Detail { student_id: stored.submission.student_id, assignment, text }.on(response.into_response())
 }
@@ -151,99 +150,4 @@ pub(super) async fn remove_comment(
         return Err(Problem::not_found());
     }
     Ok(noted(stored, "–".to_owned(), StatusCode::NO_CONTENT))
-}
-
-/// What a student asks to be looked at again.
-#[derive(Debug, Serialize, utoipa::ToSchema)]
-pub(super) struct AppealJson {
-    /// Its id.
-    id: String,
-    /// Id of the submission.
-    submission: String,
-    /// Student number, where it is known.
-    student: Option<String>,
-    /// Id of the line of the rubric.
-    line: String,
-    /// What they ask.
-    question: String,
-    /// When.
-    #[schema(format = DateTime)]
-    asked_at: String,
-    /// When somebody began to handle it,
-    #[schema(format = DateTime)]
-    taken_at: Option<String>,
-    /// and who; none for a program.
-    handler: Option<String>,
-    /// The answer,
-    answer: Option<String>,
-    /// and when it was given.
-    #[schema(format = DateTime)]
-    answered_at: Option<String>,
-}
-
-/// What the students of a homework ask.
-#[derive(Debug, Serialize, utoipa::ToSchema)]
-pub(super) struct AppealsJson {
-    /// What is not answered first.
-    appeals: Vec<AppealJson>,
-}
-
-/// Requests for another look
-///
-/// Each student may ask once in a homework, about a line of the rubric.
-#[utoipa::path(
-    get, operation_id = "list_appeals", path = "/api/v1/appeals", tag = "submissions", security(("teacher" = [])),
-    params(OfQuery),
-    responses((status = 200, description = "What they ask", body = AppealsJson), NotFound, Refusals, Errors)
-)]
-pub(super) async fn appeals(
-    teacher: Teacher,
-    Shared(service): Shared<Service>,
-    of: Result<Query<OfQuery>, QueryRejection>,
-) -> Result<Response, Problem> {
-    let Query(of) = of.map_err(super::body::other)?;
-    let state = service.named(of.assignment.as_deref())?;
-    teacher.check(&state.assignment.id)?;
-    let json = |appeal: Appeal| AppealJson {
-        id: appeal.id,
-        submission: at(&format!("/api/v1/submissions/{}", appeal.submission_id)),
-        student: appeal.number,
-        line: appeal.line,
-        question: appeal.question,
-        asked_at: time(appeal.asked_at),
-        taken_at: appeal.taken_at.map(time),
-        handler: appeal.handler,
-        answer: appeal.answer,
-        answered_at: appeal.answered_at.map(time),
-    };
-    let appeals = state.store.appeals(&state.assignment.id).await?.into_iter().map(json).collect();
-    Ok(unkept(AppealsJson { appeals }))
-}
-
-/// The answer to an appeal.
-#[derive(Debug, Deserialize, utoipa::ToSchema)]
-#[serde(deny_unknown_fields)]
-pub(super) struct AnswerWish {
-    /// The student reads it.
-    #[schema(min_length = 1, max_length = 2000)]
-    answer: String,
-}
-
-/// Answer a request for another look
-#[utoipa::path(
-    put, operation_id = "answer_appeal", path = "/api/v1/appeals/{id}/answer", tag = "submissions", security(("teacher" = [])),
-    params(("id" = String, Path, description = "Id of the appeal")), request_body = AnswerWish,
-    responses((status = 204, description = "Answered"), NotFound, Refusals, Errors)
-)]
-pub(super) async fn answer(
-    caller: Caller,
-    Shared(service): Shared<Service>,
-    Path(id): Path<String>,
-    wish: Result<Json<AnswerWish>, JsonRejection>,
-) -> Result<Response, Problem> {
-    let Json(AnswerWish { answer }) = wish.map_err(super::body::other)?;
-    let appeal = service.store.appeal(&id).await?.ok_or_else(Problem::not_found)?;
-    let stored = judged(&service, &caller, &appeal.submission_id).await?;
-    handle(&service, &caller.0, &appeal, Handling::Answer(&answer)).await?;
-    Ok(noted(stored, answer, StatusCode::NO_CONTENT))
 }

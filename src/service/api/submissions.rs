@@ -176,30 +176,35 @@ async fn identity(
     let Some(number) = &about.student else {
         return browser(state, visitor, headers).await;
     };
-    let may_name = match &about.course {
-        Some(secret) => equal_secrets(secret, &course_secret(state).await?),
-        None => match teacher.filter(|teacher| teacher.may_see(&state.assignment.id)) {
-            Some(teacher) => teacher.check_role(StaffRole::Lecturer).map(|()| true)?,
-            None => false,
-        },
-    };
-    if !may_name {
-        return Err(Problem::new(
-            StatusCode::UNAUTHORIZED,
-            "unauthorized",
-            "To hand in for a student, send the secret of the course link as `course` and the student's personal code as \
-             `code`, or the teacher's token.",
-            "学生を指定して提出するには、授業リンクの秘密を `course`、個人コードを `code` で送るか、教員用トークンが必要です。",
-        ));
+    if let Some(course) = &about.course {
+        return with_course(state, number, course, about.code.as_deref().unwrap_or_default()).await;
     }
-    if about.course.is_some() {
-        return Ok(Identity::OnBehalf(with_code(state, number, about.code.as_deref().unwrap_or_default()).await?));
-    }
+    let teacher = teacher.filter(|teacher| teacher.may_see(&state.assignment.id)).ok_or_else(not_their_name)?;
+    teacher.check_role(StaffRole::Lecturer)?;
     let number = normal_number(number).ok_or_else(|| {
         Problem::unprocessable("student is no student number.", "student が学籍番号の形式ではありません。")
     })?;
     let student = state.store.student(&number, state.clock.now()).await?;
     Ok(Identity::OnBehalf(student.ok_or_else(|| not_on_roster(&number))?))
+}
+
+/// The student whom the secret of the course link and a personal code name.
+pub(super) async fn with_course(state: &State, number: &str, course: &str, code: &str) -> Result<Identity, Problem> {
+    if !equal_secrets(course, &course_secret(state).await?) {
+        return Err(not_their_name());
+    }
+    Ok(Identity::OnBehalf(with_code(state, number, code).await?))
+}
+
+/// The refusal of who names a student without the right to.
+fn not_their_name() -> Problem {
+    Problem::new(
+        StatusCode::UNAUTHORIZED,
+        "unauthorized",
+        "To hand in for a student, send the secret of the course link as `course` and the student's personal code as \
+         `code`, or the teacher's token.",
+        "学生を指定して提出するには、授業リンクの秘密を `course`、個人コードを `code` で送るか、教員用トークンが必要です。",
+    )
 }
 
 /// The browser, where the request comes from a page of ours: nobody else's page hands in under its cookie.
