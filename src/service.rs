@@ -67,6 +67,7 @@ pub mod sign_in;
 mod state;
 pub mod store;
 pub mod submit;
+mod texts;
 pub mod upkeep;
 
 pub use config::Config;

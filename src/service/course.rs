@@ -1,7 +1,9 @@
 //! What a course sets once for all its homework: its title, the time zone of its dates, and the language in which it speaks to
 //! students. All are settings of the teacher's, and neither is the machine's.
 
-use super::store::{Result, Store};
+use super::errors::Problem;
+use super::store::{Result as StoreResult, Store};
+use super::texts::check_length;
 use crate::language::Language;
 use jiff::tz::TimeZone;
 use serde::{Deserialize, Serialize};
@@ -52,10 +54,11 @@ impl Course {
         Some(Self { zone, language, title: String::new() })
     }
 
-    /// The same with a title, without what is in no title.
-    pub fn titled(mut self, title: &str) -> Self {
-        self.title = title.trim().chars().filter(|c| !c.is_control()).take(LONGEST_TITLE).collect();
-        self
+    /// The same with a title, without what is in no title; a problem where it is too long.
+    pub fn titled(mut self, title: &str) -> Result<Self, Problem> {
+        check_length(title, LONGEST_TITLE, ("The title", "授業名"))?;
+        self.title = title.trim().chars().filter(|c| !c.is_control()).collect();
+        Ok(self)
     }
 
     /// The time zone of every date that is shown or typed.
@@ -82,16 +85,16 @@ pub fn zone_names() -> Vec<String> {
 
 impl Store {
     /// The course as the teacher set it.
-    pub async fn course(&self) -> Result<Course> {
+    pub async fn course(&self) -> StoreResult<Course> {
         let Some(json) = self.setting(SETTING).await? else { return Ok(Course::default()) };
         let StoredCourse { zone, language, title } = serde_json::from_str(&json)?;
         // A machine without this zone shows the instant itself rather than no page at all.
-        let course = Course::new(&zone, language);
-        Ok(course.unwrap_or(Course { zone: TimeZone::UTC, language, title: String::new() }).titled(&title))
+        let zone = Course::new(&zone, language).map_or(TimeZone::UTC, |course| course.zone);
+        Ok(Course { zone, language, title })
     }
 
     /// Sets the course.
-    pub async fn set_course(&self, course: &Course) -> Result<()> {
+    pub async fn set_course(&self, course: &Course) -> StoreResult<()> {
         let zone = course.zone_name().to_owned();
         let stored = StoredCourse { zone, language: course.language, title: course.title.clone() };
         self.set_setting(SETTING, &serde_json::to_string(&stored)?).await

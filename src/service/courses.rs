@@ -122,7 +122,7 @@ pub(super) async fn holding(first: &Service, id: &str) -> StoreResult<Option<(Se
 
 /// Makes a course without homeworks, students and lecturers.
 pub async fn make(first: &Service, id: &str, title: &str) -> Result<Service, Problem> {
-    let settings = first.store.course().await?.titled(title);
+    let settings = first.store.course().await?.titled(title)?;
     filled(first, id, async |tables| Ok(tables.set_course(&settings).await?)).await
 }
 

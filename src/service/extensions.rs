@@ -5,6 +5,7 @@ use super::clock::Millis;
 use super::errors::Problem;
 use super::identity::normal_number;
 use super::store::{Beneficiary, Extension};
+use super::texts::check_length;
 use axum::http::StatusCode;
 
 /// Longest reason, in characters.
@@ -45,7 +46,8 @@ pub async fn grant(
             "延長後の締切は、クラスの締切より後にしてください。空欄にすると延長を取り消します。",
         ));
     }
-    let reason: String = reason.trim().chars().take(LONGEST_REASON).collect();
+    check_length(reason, LONGEST_REASON, ("The reason", "理由"))?;
+    let reason = reason.trim().to_owned();
     let own = closes_at.map(|closes_at| Extension { closes_at, reason: reason.clone() });
     state.store.set_extension(id, to, own.as_ref()).await?;
     Ok(reason)

@@ -5,6 +5,7 @@ use super::errors::Problem;
 use super::identity::{Identity, Teacher, new_id};
 use super::store::{Appeal, StoredComment, StoredSubmission, Submission, Via};
 use super::submit::check_own;
+use super::texts::check_length;
 use super::{Service, State};
 use crate::report::{Report, RubricLine};
 use axum::http::StatusCode;
@@ -12,16 +13,54 @@ use axum::http::StatusCode;
 /// Longest reason, question, answer or comment, in characters.
 pub const LONGEST_TEXT: usize = 2000;
 
-/// A text as it is kept; a problem where there is none.
-fn text(given: &str) -> Result<String, Problem> {
-    let text: String = given.trim().replace('\r', "").chars().take(LONGEST_TEXT).collect();
-    if text.is_empty() {
-        return Err(Problem::unprocessable(
-            "There is no text: say why, the student reads it.",
-            "文章がありません。学生が読む理由を入力してください。",
-        ));
+/// What a text is for.
+#[derive(Clone, Copy)]
+enum TextKind {
+    Reason,
+    Comment,
+    Question,
+    Answer,
+}
+
+impl TextKind {
+    /// What it is called where it is too long.
+    fn name(self) -> (&'static str, &'static str) {
+        match self {
+            Self::Reason => ("The reason", "理由"),
+            Self::Comment => ("The comment", "コメント"),
+            Self::Question => ("The question", "質問"),
+            Self::Answer => ("The answer", "回答"),
+        }
     }
-    Ok(text)
+
+    /// What is said where there is none.
+    fn missing(self) -> (&'static str, &'static str) {
+        match self {
+            Self::Reason => (
+                "There is no reason: say why, the student reads it.",
+                "理由がありません。学生が読む理由を入力してください。",
+            ),
+            Self::Comment => ("The comment is empty.", "コメントが入力されていません。"),
+            Self::Question => (
+                "There is no question: say what is judged wrongly, and why.",
+                "質問がありません。どの判定がなぜ誤りだと思うのかを入力してください。",
+            ),
+            Self::Answer => {
+                ("The answer is empty: the student reads it.", "回答がありません。学生への回答を入力してください。")
+            }
+        }
+    }
+
+    /// A text as it is kept; a problem where there is none, or too much.
+    fn read(self, given: &str) -> Result<String, Problem> {
+        let text = given.trim().replace('\r', "");
+        if text.is_empty() {
+            let (en, ja) = self.missing();
+            return Err(Problem::unprocessable(en, ja));
+        }
+        check_length(&text, LONGEST_TEXT, self.name())?;
+        Ok(text)
+    }
 }
 
 /// The report of what was handed in; a problem where there is none yet, or it is a draft.
@@ -77,7 +116,7 @@ pub async fn override_line(
             format!("この項目の得点は 0 から {most} までの数で入力してください。"),
         ));
     }
-    let reason = text(reason)?;
+    let reason = TextKind::Reason.read(reason)?;
     service.store.set_override(id, line, Some((points, &reason)), staff_id(teacher), service.clock.now()).await?;
     Ok(format!("{line}: {points}, {reason}"))
 }
@@ -108,7 +147,7 @@ pub async fn comment(
         id: new_id(),
         file: file.facts.name.clone(),
         line: i64::from(line),
-        text: text(said)?,
+        text: TextKind::Comment.read(said)?,
         author: None,
     };
     service.store.add_comment(id, &comment, staff_id(teacher), service.clock.now()).await?;
@@ -140,7 +179,7 @@ pub async fn ask(
         submission_id: submission.id.clone(),
         assignment: submission.assignment.clone(),
         line: line.to_owned(),
-        question: text(question)?,
+        question: TextKind::Question.read(question)?,
         asked_at: state.clock.now(),
         handler: None,
         taken_at: None,
@@ -184,7 +223,9 @@ pub async fn handle(
     match handling {
         Handling::Take => store.take_appeal(&appeal.id, staff_id(teacher), Some(now)).await?,
         Handling::Release => store.take_appeal(&appeal.id, None, None).await?,
-        Handling::Answer(answer) => store.answer_appeal(&appeal.id, staff_id(teacher), &text(answer)?, now).await?,
+        Handling::Answer(answer) => {
+            store.answer_appeal(&appeal.id, staff_id(teacher), &TextKind::Answer.read(answer)?, now).await?
+        }
     }
     Ok(())
 }

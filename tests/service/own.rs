@@ -97,6 +97,15 @@ async fn a_student_lets_something_count_and_asks_by_a_program(database: Database
     let question = json!({ "line": "specular", "question": "Why?" });
     assert_eq!(send("POST", format!("{address}?{others}"), question.clone()).await.status, StatusCode::NOT_FOUND);
     assert_eq!(send("GET", format!("{address}?{mine}"), Value::Null).await.status, StatusCode::NOT_FOUND);
+    // Nothing is asked, or too much, of which nothing is cut off.
+    for (long, said) in [(String::new(), "There is no question"), ("x".repeat(2001), "2001 characters")] {
+        let wrong = json!({ "line": "specular", "question": long });
+        let refused = send("POST", format!("{address}?{mine}&lang=en"), wrong).await;
+        assert_eq!(refused.status, StatusCode::UNPROCESSABLE_ENTITY);
+        assert!(refused.text().contains(said), "{}", refused.text());
+    }
+    let title = api(&bench, "PATCH", "/api/v1/course", json!({ "title": "x".repeat(101) })).await;
+    assert!(title.status == 422 && title.text().contains("101 characters"), "{}", title.text());
     let asked = send("POST", format!("{address}?{mine}"), question.clone()).await;
     assert_eq!((asked.status, &asked.json()["question"]), (StatusCode::CREATED, &json!("Why?")), "{}", asked.text());
     assert_eq!(send("POST", format!("{address}?{mine}"), question).await.status, StatusCode::CONFLICT);

@@ -206,7 +206,7 @@ pub(super) async fn change(
             "`zone` には Asia/Tokyo のような tz データベースの名前を指定してください。`link` は POST /api/v1/course/link で変更します。",
         )
     })?;
-    service.store.set_course(&course.titled(&after.title)).await?;
+    service.store.set_course(&course.titled(&after.title)?).await?;
     service.store.set_pseudonyms(after.pseudonyms).await?;
     service.store.set_archived(after.is_archived.then(|| service.clock.now())).await?;
     let json = course_json(&service, &caller.0, &caller.1).await?;

@@ -69,7 +69,7 @@ impl Source {
 
     /// Writes it into the tables of a new course.
     async fn write(self, tables: &Store, title: &str, now: Millis) -> Result<(), Problem> {
-        tables.set_course(&self.course.titled(title)).await?;
+        tables.set_course(&self.course.titled(title)?).await?;
         for (folder, files) in &self.folders {
             tables.add_folder(folder, files, None).await?;
             tables.assignment(&folder.assignment).await?;

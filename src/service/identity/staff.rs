@@ -12,6 +12,7 @@ use crate::service::clock::{Millis, millis};
 use crate::service::courses::public_address;
 use crate::service::errors::Problem;
 use crate::service::store::{StaffMember, StaffRole};
+use crate::service::texts::check_length;
 use axum::http::HeaderMap;
 use std::time::Duration;
 
@@ -57,7 +58,8 @@ pub async fn add_staff(service: &Service, login: &str, name: &str, role: StaffRo
             format!("ログイン名は {LONGEST_LOGIN} 文字以内の英数字と `-`、`_`、`.`、`@`、`+` で入力してください。メールアドレスも使えます。"),
         )
     })?;
-    let name: String = name.trim().chars().filter(|c| !c.is_control()).take(LONGEST_NAME).collect();
+    check_length(name, LONGEST_NAME, ("The name", "氏名"))?;
+    let name: String = name.trim().chars().filter(|c| !c.is_control()).collect();
     if role == StaffRole::Administrator && service.is_beside() {
         return Err(only_in_the_first());
     }

@@ -158,8 +158,7 @@ impl CourseFields {
 
     fn read(&self, frame: &PageFrame) -> Result<Course, String> {
         let language = if self.language == "en" { Language::En } else { Language::Ja };
-        let course = Course::new(&self.zone, language).map(|course| course.titled(&self.title));
-        course.ok_or_else(|| {
+        let course = Course::new(&self.zone, language).ok_or_else(|| {
             let zone = self.zone.trim();
             match frame.language {
                 Language::En => format!("There is no time zone `{zone}`. Choose one of the list, such as Asia/Tokyo."),
@@ -167,7 +166,8 @@ impl CourseFields {
                     "「{zone}」というタイムゾーンはありません。Asia/Tokyo のように、一覧にある名前を選んでください。"
                 ),
             }
-        })
+        })?;
+        course.titled(&self.title).map_err(|problem| problem.detail.get(frame.language).to_owned())
     }
 }
 
