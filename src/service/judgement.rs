@@ -94,20 +94,20 @@ fn no_such_line(report: &Report, line: &str) -> Problem {
 }
 
 /// Gives a line of the rubric other points than the grading, for a reason that its student reads; without points that is taken
-/// back. What the log says of it.
+/// back. What the log says of it; nothing where there is nothing to be taken back.
 pub async fn override_line(
     service: &Service,
     teacher: &Teacher,
     stored: &StoredSubmission,
     line: &str,
     given: Option<(f64, &str)>,
-) -> Result<String, Problem> {
+) -> Result<Option<String>, Problem> {
     let report = report(stored)?;
     let of_rubric = lines(report).find(|it| it.id == line);
     let id = &stored.submission.id;
     let Some((points, reason)) = given else {
-        service.store.set_override(id, line, None, staff_id(teacher), service.clock.now()).await?;
-        return Ok(format!("{line}: –"));
+        let was = service.store.set_override(id, line, None, staff_id(teacher), service.clock.now()).await?;
+        return Ok(was.then(|| format!("{line}: –")));
     };
     let most = of_rubric.ok_or_else(|| no_such_line(report, line))?.max_points;
     if !(0.0..=most).contains(&points) {
@@ -118,7 +118,7 @@ pub async fn override_line(
     }
     let reason = TextKind::Reason.read(reason)?;
     service.store.set_override(id, line, Some((points, &reason)), staff_id(teacher), service.clock.now()).await?;
-    Ok(format!("{line}: {points}, {reason}"))
+    Ok(Some(format!("{line}: {points}, {reason}")))
 }
 
 /// Adds a comment on a line of a file that was handed in.

@@ -102,7 +102,14 @@ async fn what_is_overridden_is_the_same_share_of_a_line_and_is_told_where_the_li
     let at = format!("/api/v1/submissions/{id}/rubric/shape");
     let refused = api(&bench, "PUT", &at, json!({ "points": 0, "reason": "x" })).await;
     assert_eq!(refused.status, StatusCode::UNPROCESSABLE_ENTITY);
+    let acts = async || get(&bench, "/teacher/log").await.all(".people tbody tr").len();
+    let before = acts().await;
     assert_eq!(api(&bench, "DELETE", &at, json!({})).await.status, StatusCode::NO_CONTENT);
+    assert_eq!(acts().await, before + 1);
+    // What is not there any more is no act.
+    assert_eq!(api(&bench, "DELETE", &at, json!({})).await.status, StatusCode::NO_CONTENT);
+    assert_eq!(form(&bench, &format!("/r/{id}/override"), "line=shape&wish=clear").await.status, StatusCode::SEE_OTHER);
+    assert_eq!(acts().await, before + 1);
     let stored = report(&bench, &id).await;
     assert!(stored["rubric"].as_array().expect("lines").iter().all(|it| it["id"] != "shape"), "{stored}");
     bench.finish().await;

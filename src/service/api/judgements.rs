@@ -26,6 +26,14 @@ pub(super) async fn judged(
     Ok(stored)
 }
 
+/// An answer with a line for the log, where something is said there.
+fn noted_where(stored: StoredSubmission, text: Option<String>, response: impl IntoResponse) -> Response {
+    match text {
+        Some(text) => noted(stored, text, response),
+        None => response.into_response(),
+    }
+}
+
 /// An answer with a line for the log.
 pub(super) fn noted(stored: StoredSubmission, text: String, response: impl IntoResponse) -> Response {
     let assignment = Some(stored.submission.assignment);
@@ -61,7 +69,7 @@ pub(super) async fn override_line(
     let Json(OverrideWish { points, reason }) = wish.map_err(super::body::other)?;
     let stored = judged(&service, &caller, &id).await?;
     let said = judgement::override_line(&service, &caller.0, &stored, &line, Some((points, &reason))).await?;
-    Ok(noted(stored, said, StatusCode::NO_CONTENT))
+    Ok(noted_where(stored, said, StatusCode::NO_CONTENT))
 }
 
 /// Let the grading's points of a line count again
@@ -77,7 +85,7 @@ pub(super) async fn clear_override(
 ) -> Result<Response, Problem> {
     let stored = judged(&service, &caller, &id).await?;
     let said = judgement::override_line(&service, &caller.0, &stored, &line, None).await?;
-    Ok(noted(stored, said, StatusCode::NO_CONTENT))
+    Ok(noted_where(stored, said, StatusCode::NO_CONTENT))
 }
 
 /// A comment on a line of a file.

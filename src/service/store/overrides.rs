@@ -188,7 +188,8 @@ impl Store {
         Ok(on!(&self.read, db => sqlx::query_as(OVERRIDES).bind(submission_id).fetch_all(db).await?))
     }
 
-    /// Overrides a line of a submission's report, or takes that back. The line gets `points`, for a reason that its student reads.
+    /// Overrides a line of a submission's report, or takes that back; false where there is nothing to be taken back. The line gets
+    /// the points, for a reason that its student reads.
     pub async fn set_override(
         &self,
         submission_id: &str,
@@ -196,17 +197,17 @@ impl Store {
         given: Option<(f64, &str)>,
         staff_id: Option<&str>,
         now: Millis,
-    ) -> Result<()> {
+    ) -> Result<bool> {
         const CLEAR: &str = "DELETE FROM overrides WHERE submission_id = $1 AND line = $2";
         const SET: &str = "INSERT INTO overrides (submission_id, line, points, graded, most, reason, staff_id, at) \
                            VALUES ($1, $2, $3, $4, $5, $6, $7, $8)";
-        on!(&self.write, db => {
+        let changes = on!(&self.write, db => {
             let mut transaction = db.begin().await?;
             let json: Option<String> =
                 sqlx::query_scalar(REPORT).bind(submission_id).fetch_optional(&mut *transaction).await?;
             let report: Option<Report> = json.map(|json| serde_json::from_str(&json)).transpose()?;
             let graded = report.and_then(|report| report.rubric.into_iter().find(|it| it.id == line));
-            sqlx::query(CLEAR).bind(submission_id).bind(line).execute(&mut *transaction).await?;
+            let cleared = sqlx::query(CLEAR).bind(submission_id).bind(line).execute(&mut *transaction).await?;
             if let (Some((points, reason)), Some(graded)) = (given, graded) {
                 sqlx::query(SET)
                     .bind(submission_id)
@@ -222,8 +223,9 @@ impl Store {
             }
             rescore!(transaction, submission_id);
             transaction.commit().await?;
+            given.is_some() || cleared.rows_affected() > 0
         });
-        Ok(())
+        Ok(changes)
     }
 
     /// What is overridden of everything that a regrading judges anew, with what it gives.

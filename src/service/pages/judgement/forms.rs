@@ -24,7 +24,12 @@ fn done(stored: &StoredSubmission, text: String) -> Response {
     let submission = &stored.submission;
     let detail =
         Detail { student_id: submission.student_id.clone(), assignment: Some(submission.assignment.clone()), text };
-    detail.on(Redirect::to(&format!("/r/{}#judgement", submission.id)).into_response())
+    detail.on(back(stored))
+}
+
+/// Back to the page.
+fn back(stored: &StoredSubmission) -> Response {
+    Redirect::to(&format!("/r/{}#judgement", stored.submission.id)).into_response()
 }
 
 /// The form of a line of the rubric.
@@ -50,7 +55,7 @@ pub(in crate::service::pages) async fn override_line(
     let points = form.points.trim().parse().unwrap_or(f64::NAN);
     let given = (form.wish != "clear").then_some((points, form.reason.as_str()));
     let said = judgement::override_line(&service, &teacher, &stored, &form.line, given).await?;
-    Ok(done(&stored, said))
+    Ok(said.map_or_else(|| back(&stored), |said| done(&stored, said)))
 }
 
 /// The form of a comment.
@@ -74,8 +79,8 @@ pub(in crate::service::pages) async fn comment(
 ) -> Result<Response, Problem> {
     let stored = judged(&service, &teacher, &form.csrf, &id).await?;
     if !form.remove.is_empty() {
-        service.store.remove_comment(&id, &form.remove).await?;
-        return Ok(done(&stored, "–".to_owned()));
+        let removed = service.store.remove_comment(&id, &form.remove).await?;
+        return Ok(if removed { done(&stored, "–".to_owned()) } else { back(&stored) });
     }
     let line = form.line.trim().parse().unwrap_or(0);
     let comment = judgement::comment(&service, &teacher, &stored, (&form.file, line), &form.text).await?;
