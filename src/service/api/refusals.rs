@@ -37,7 +37,9 @@ pub(super) enum Refusals {
     #[response(status = 401, content_type = "application/problem+json",
         headers(("WWW-Authenticate" = String, description = "`Bearer`")))]
     Unauthorized(ProblemJson),
-    /// Handing in is over or has not begun, all attempts are used up, or a student number is needed.
+    /// Whoever asks may not do this: a role or a token that is good for less, another homework's token, a page of another site, a
+    /// personal code that is wrong. Or nobody may now: the course is archived, handing in is over or has not begun, all attempts are
+    /// used up.
     #[response(status = 403, content_type = "application/problem+json")]
     Forbidden(ProblemJson),
     /// The file is too large.
