@@ -107,7 +107,10 @@ async fn a_network_of_ipv6_is_one_visitor_and_the_teachers_program_none() {
         ("[2001:db8:1:2::3]:1", StatusCode::TOO_MANY_REQUESTS),
         ("[2001:db8:1:3::1]:1", StatusCode::CREATED),
     ] {
-        assert_eq!(bench.send(by(peer, "")).await.status, status, "{peer}");
+        let reply = bench.send(by(peer, "")).await;
+        assert_eq!(reply.status, status, "{peer}");
+        let names_it = reply.json()["detail"].as_str().is_some_and(|detail| detail.contains("2001:db8:1:2::"));
+        assert_eq!(names_it, status == StatusCode::TOO_MANY_REQUESTS, "{reply:?}");
     }
     let with = |token: &str| {
         let mut request = by("192.0.2.1:1", "");

@@ -6,6 +6,7 @@
 //! draft-ietf-httpapi-ratelimit-headers: `RateLimit-Policy` and `RateLimit`.
 
 use super::Client;
+use crate::language::Text;
 use crate::service::Config;
 use crate::service::clock::Clock;
 use crate::service::errors::Problem;
@@ -37,7 +38,7 @@ pub struct RateLimits {
 
 /// How many requests whoever is told apart by a `K` may send: as many at once as in a minute, and then as they come back.
 #[derive(Debug)]
-struct Rate<K: Hash + Eq + Clone> {
+struct Rate<K: Key> {
     name: &'static str,
     /// The kind of the problem.
     kind: &'static str,
@@ -101,7 +102,7 @@ impl RateLimits {
     }
 }
 
-impl<K: Hash + Eq + Clone> Rate<K> {
+impl<K: Key> Rate<K> {
     fn new(name: &'static str, kind: &'static str, per_minute: u32, clock: &Clock) -> Self {
         let quota = NonZeroU32::new(per_minute).unwrap_or(NonZeroU32::MIN);
         let states = DefaultKeyedStateStore::default();
@@ -123,18 +124,39 @@ impl<K: Hash + Eq + Clone> Rate<K> {
                 let wait = until.wait_time_from(self.limiter.clock().elapsed());
                 let seconds = (wait.as_secs_f64().ceil() as u64).max(1);
                 counted.0.push(RemainingQuota { name, quota, left: 0, seconds });
-                Err(too_many(self.kind).retry_after(seconds))
+                Err(too_many(self.kind, &key.whose()).retry_after(seconds))
             }
         }
     }
 }
 
-fn too_many(kind: &'static str) -> Problem {
+/// By what requests are told apart.
+trait Key: Hash + Eq + Clone {
+    /// From where the requests come that are counted together, in words.
+    fn whose(&self) -> Text;
+}
+
+impl Key for String {
+    fn whose(&self) -> Text {
+        match self.parse::<IpAddr>() {
+            Ok(address) => address.whose(),
+            Err(_) => Text::new("from this browser", "このブラウザから"),
+        }
+    }
+}
+
+impl Key for IpAddr {
+    fn whose(&self) -> Text {
+        Text::new(format!("from the network address {self}"), format!("ネットワークアドレス {self} から"))
+    }
+}
+
+fn too_many(kind: &'static str, whose: &Text) -> Problem {
     Problem::new(
         StatusCode::TOO_MANY_REQUESTS,
         kind,
-        "Too many requests in a short time. Wait a little, and try again.",
-        "短時間にリクエストが集中しています。少し待ってから、もう一度試してください。",
+        format!("Too many requests came {} in a short time. Wait a little, and try again.", whose.en),
+        format!("{}短時間に多くのリクエストが届いています。少し待ってから、もう一度試してください。", whose.ja),
     )
 }
 
