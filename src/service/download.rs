@@ -3,6 +3,7 @@
 use super::Service;
 use super::errors::Problem;
 use crate::hand_in::HandIn;
+use crate::source::lookalikes::is_bidi;
 use axum::http::{HeaderValue, header};
 use axum::response::{IntoResponse, Response};
 use std::io::Write;
@@ -69,7 +70,8 @@ fn zipped(hand_in: &HandIn) -> zip::result::ZipResult<Vec<u8>> {
 
 /// The name of a file that a student named, as a file in a folder: nothing of it leads elsewhere.
 pub fn plain_name(name: &str) -> String {
-    let plain: String = name.chars().map(|c| if matches!(c, '/' | '\\') || c.is_control() { '_' } else { c }).collect();
+    let is_plain = |c: char| !matches!(c, '/' | '\\') && !c.is_control() && !is_bidi(c);
+    let plain: String = name.chars().map(|c| if is_plain(c) { c } else { '_' }).collect();
     let plain = plain.trim_start_matches('.');
     if plain.is_empty() { "file".to_owned() } else { plain.to_owned() }
 }

@@ -17,6 +17,7 @@ use crate::hand_in::HandIn;
 use crate::report::Report;
 use crate::slots::Slot;
 use crate::source;
+use crate::source::lookalikes::is_bidi;
 pub(super) use allowed::{check_own, closed, is_stranger, not_shown};
 use allowed::{may_hand_in, no_attempt_left};
 use axum::http::StatusCode;
@@ -229,10 +230,11 @@ pub(super) fn sha256(bytes: &[u8]) -> String {
     Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
-/// The last part of a name as handed in, of a bearable length; the name that the homework asks for, where none is left.
+/// The last part of a name as handed in, of a bearable length and without what turns the direction of writing, which makes an ending
+/// look like another one; the name that the homework asks for, where none is left.
 pub(super) fn file_name(name: &str, slot: Option<&Slot>) -> String {
     let last = name.rsplit(['/', '\\']).next().unwrap_or_default();
-    let clean: String = last.chars().filter(|c| !c.is_control()).take(LONGEST_NAME).collect();
+    let clean: String = last.chars().filter(|c| !c.is_control() && !is_bidi(*c)).take(LONGEST_NAME).collect();
     match slot {
         Some(slot) if clean.trim().is_empty() => slot.name.clone(),
         _ => clean,

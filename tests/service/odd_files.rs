@@ -9,7 +9,11 @@ use ggrade::service::clock::Clock;
 use std::path::Path;
 use std::sync::Arc;
 
-on_both!(what_is_no_text_uses_up_nothing, hostile_files_are_answered_as_any_other);
+on_both!(
+    what_is_no_text_uses_up_nothing,
+    nothing_in_a_name_turns_its_direction,
+    hostile_files_are_answered_as_any_other,
+);
 
 async fn what_is_no_text_uses_up_nothing(database: Database) {
     let bench = Bench::with(database, config(), Arc::new(Fake(|| Ok(()))), Clock::system()).await;
@@ -41,6 +45,15 @@ async fn what_is_no_text_uses_up_nothing(database: Database) {
         assert_eq!(reply.status, StatusCode::CREATED, "{reply:?}");
     }
     assert_eq!(hand_in(right()).await.problem(), "attempts");
+    bench.finish().await;
+}
+
+async fn nothing_in_a_name_turns_its_direction(database: Database) {
+    let bench = Bench::with(database, config(), Arc::new(Fake(|| Ok(()))), Clock::system()).await;
+    // `trev.exe` in the order of its letters, `exe.vert` to the eye.
+    let id = bench.hand_in("?name=%E2%80%AEtrev%E2%81%A6.exe", "void main() {}").await.id();
+    let stored = bench.state.store.submission(&id).await.expect("a store").expect("a submission");
+    assert_eq!(stored.name, "trev.exe");
     bench.finish().await;
 }
 

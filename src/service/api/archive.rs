@@ -7,6 +7,7 @@ use crate::service::idempotency::{self, RequestKey};
 use crate::service::identity::hex;
 use crate::service::limits::Client;
 use crate::service::store::StoredKey;
+use crate::source::lookalikes::is_bidi;
 use axum::body::Bytes;
 use axum::extract::{FromRequest, Multipart, Request};
 use axum::http::{HeaderMap, StatusCode, header};
@@ -99,7 +100,7 @@ impl UploadedArchive {
     pub fn title(&self) -> String {
         let last = self.name.rsplit(['/', '\\']).next().unwrap_or_default();
         let stem = last.strip_suffix(".zip").unwrap_or(last);
-        stem.chars().filter(|c| !c.is_control()).take(100).collect()
+        stem.chars().filter(|c| !c.is_control() && !is_bidi(*c)).take(100).collect()
     }
 }
 
