@@ -27,6 +27,17 @@ pub struct Problem {
     pub retry_after: Option<u64>,
     /// Position in the queue that a further upload would have.
     pub position: Option<u64>,
+    /// The form that was refused, where a page shall say what stood in it.
+    pub form: Option<Box<RefusedForm>>,
+}
+
+/// A form that was refused.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct RefusedForm {
+    /// The address of the page that it stands on.
+    pub page: String,
+    /// The text that was typed.
+    pub typed: String,
 }
 
 /// The object that a client sees.
@@ -52,13 +63,19 @@ pub struct ProblemJson {
 impl Problem {
     /// A problem.
     pub fn new(status: StatusCode, kind: &'static str, en: impl Into<String>, ja: impl Into<String>) -> Self {
-        Self { status, kind, detail: Text::new(en, ja), retry_after: None, position: None }
+        Self { status, kind, detail: Text::new(en, ja), retry_after: None, position: None, form: None }
     }
 
     /// The same of one file among several.
     pub fn about(mut self, file: &str) -> Self {
         self.detail = Text::new(format!("{file}: {}", self.detail.en), format!("{file}: {}", self.detail.ja));
         self
+    }
+
+    /// The same of a form: its page says how to get back to `page`, and what was typed.
+    pub fn of_form(self, page: &str, typed: &str) -> Self {
+        let form = RefusedForm { page: page.to_owned(), typed: typed.to_owned() };
+        Self { form: Some(Box::new(form)), ..self }
     }
 
     /// The same, to be tried again later.

@@ -54,6 +54,13 @@ async fn who_is_not_in_the_class_lets_nothing_count_and_asks_nothing(database: D
     roster("number,name\nS2,B\n").await;
     assert_eq!(both(&bench, &mine, &id).await, [StatusCode::UNPROCESSABLE_ENTITY; 2]);
     assert_eq!(shown().await, (0, 0));
+    // What was typed is not lost, and the way leads back to the report.
+    let request = mine.request("POST", &format!("/r/{id}/appeal")).header(header::ACCEPT, "text/html");
+    let request = request.header(header::CONTENT_TYPE, "application/x-www-form-urlencoded");
+    let typed = format!("csrf={}&line=specular&question=Why+not%3F", mine.csrf(&bench).await);
+    let page = bench.send(request.body(Body::from(typed)).expect("a request")).await;
+    assert_eq!(page.all("#typed"), ["Why not?"]);
+    assert!(page.text().contains(&format!("href=\"/r/{id}#judgement\"")), "{}", page.text());
     // On it again, they see no homework any more.
     roster("number,name\nS1,A\nS2,B\n").await;
     let settings = "/api/v1/assignments/ggsample06/settings";

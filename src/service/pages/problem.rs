@@ -3,7 +3,7 @@
 use super::frame::PageFrame;
 use crate::language::Language;
 use crate::service::course::Course;
-use crate::service::errors::Problem;
+use crate::service::errors::{Problem, RefusedForm};
 use askama::Template;
 use axum::http::Uri;
 use axum::response::Html;
@@ -16,9 +16,11 @@ struct ProblemPage {
     heading: &'static str,
     detail: String,
     is_teachers: bool,
+    form: Option<RefusedForm>,
 }
 
-/// A problem as a page; its button leads to the pages among which `path` is, the teacher's or the student's.
+/// A problem as a page; its button leads to the pages among which `path` is, the teacher's or the student's, or back to the form
+/// that was refused.
 pub fn problem(problem: &Problem, language: Language, path: &str) -> Html<String> {
     // Of one of several homeworks the teacher's pages stand below `/a/{assignment}`.
     let within = path.strip_prefix("/a/").and_then(|rest| rest.find('/').map(|slash| &rest[slash..])).unwrap_or(path);
@@ -34,6 +36,7 @@ pub fn problem(problem: &Problem, language: Language, path: &str) -> Html<String
     };
     let detail = problem.detail.get(language).replace('`', "");
     let status = problem.status.as_u16();
+    let form = problem.form.as_deref().cloned();
     // A string of a template of ours: there is nothing that could fail.
-    Html(ProblemPage { frame, status, heading, detail, is_teachers }.render().unwrap_or_default())
+    Html(ProblemPage { frame, status, heading, detail, is_teachers, form }.render().unwrap_or_default())
 }

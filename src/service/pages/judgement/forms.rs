@@ -2,6 +2,7 @@
 
 use crate::service::Service;
 use crate::service::acts::Detail;
+use crate::service::courses::at;
 use crate::service::errors::Problem;
 use crate::service::identity::{Teacher, Visitor};
 use crate::service::judgement::{self, Handling, handle};
@@ -32,6 +33,11 @@ fn back(stored: &StoredSubmission) -> Response {
     Redirect::to(&format!("/r/{}#judgement", stored.submission.id)).into_response()
 }
 
+/// A refusal that leads back to the report, with what was typed.
+fn refused(problem: Problem, id: &str, typed: &str) -> Problem {
+    problem.of_form(&at(&format!("/r/{id}#judgement")), typed)
+}
+
 /// The form of a line of the rubric.
 #[derive(Debug, Default, Deserialize)]
 #[serde(default)]
@@ -51,10 +57,12 @@ pub(in crate::service::pages) async fn override_line(
     Path(id): Path<String>,
     Form(form): Form<OverrideForm>,
 ) -> Result<Response, Problem> {
-    let stored = judged(&service, &teacher, &form.csrf, &id).await?;
+    let stored = judged(&service, &teacher, &form.csrf, &id).await;
+    let stored = stored.map_err(|problem| refused(problem, &id, &form.reason))?;
     let points = form.points.trim().parse().unwrap_or(f64::NAN);
     let given = (form.wish != "clear").then_some((points, form.reason.as_str()));
-    let said = judgement::override_line(&service, &teacher, &stored, &form.line, given).await?;
+    let said = judgement::override_line(&service, &teacher, &stored, &form.line, given).await;
+    let said = said.map_err(|problem| refused(problem, &id, &form.reason))?;
     Ok(said.map_or_else(|| back(&stored), |said| done(&stored, said)))
 }
 
@@ -77,13 +85,15 @@ pub(in crate::service::pages) async fn comment(
     Path(id): Path<String>,
     Form(form): Form<CommentForm>,
 ) -> Result<Response, Problem> {
-    let stored = judged(&service, &teacher, &form.csrf, &id).await?;
+    let stored = judged(&service, &teacher, &form.csrf, &id).await;
+    let stored = stored.map_err(|problem| refused(problem, &id, &form.text))?;
     if !form.remove.is_empty() {
         let removed = service.store.remove_comment(&id, &form.remove).await?;
         return Ok(if removed { done(&stored, "–".to_owned()) } else { back(&stored) });
     }
     let line = form.line.trim().parse().unwrap_or(0);
-    let comment = judgement::comment(&service, &teacher, &stored, (&form.file, line), &form.text).await?;
+    let comment = judgement::comment(&service, &teacher, &stored, (&form.file, line), &form.text).await;
+    let comment = comment.map_err(|problem| refused(problem, &id, &form.text))?;
     Ok(done(&stored, format!("{}:{}: {}", comment.file, comment.line, comment.text)))
 }
 
@@ -103,9 +113,10 @@ pub(in crate::service::pages) async fn ask(
     Path(id): Path<String>,
     Form(form): Form<QuestionForm>,
 ) -> Result<Response, Problem> {
-    visitor.check_csrf(&service, &form.csrf)?;
+    visitor.check_csrf(&service, &form.csrf).map_err(|problem| refused(problem, &id, &form.question))?;
     let (state, stored) = service.stored(&id).await?;
-    judgement::ask(&state, &visitor.identity, &stored, &form.line, &form.question).await?;
+    let asked = judgement::ask(&state, &visitor.identity, &stored, &form.line, &form.question).await;
+    asked.map_err(|problem| refused(problem, &id, &form.question))?;
     Ok(Redirect::to(&format!("/r/{id}#judgement")).into_response())
 }
 
@@ -127,13 +138,16 @@ pub(in crate::service::pages) async fn handled(
     Form(form): Form<HandlingForm>,
 ) -> Result<Response, Problem> {
     let appeal = service.store.appeal(&id).await?.ok_or_else(Problem::not_found)?;
-    let stored = judged(&service, &teacher, &form.csrf, &appeal.submission_id).await?;
+    let of = &appeal.submission_id;
+    let stored = judged(&service, &teacher, &form.csrf, of).await;
+    let stored = stored.map_err(|problem| refused(problem, of, &form.answer))?;
     let handling = match form.wish.as_str() {
         "take" => Handling::Take,
         "release" => Handling::Release,
         _ => Handling::Answer(&form.answer),
     };
-    handle(&service, &teacher, &appeal, handling).await?;
+    let handled = handle(&service, &teacher, &appeal, handling).await;
+    handled.map_err(|problem| refused(problem, of, &form.answer))?;
     let said = if matches!(handling, Handling::Answer(_)) { form.answer } else { form.wish };
     Ok(done(&stored, said))
 }
