@@ -113,7 +113,12 @@ impl Pseudonyms {
                 HandInContent::Nothing(_) => HandInContent::Nothing(nothing()),
             };
             let hand_in = StudentWork {
-                student: Student { key: letters.to_ascii_lowercase(), name: pseudonym.clone(), moodle: None },
+                student: Student {
+                    key: letters.to_ascii_lowercase(),
+                    name: pseudonym.clone(),
+                    moodle: None,
+                    email: None,
+                },
                 content,
             };
             hidden.push((hand_in, named));
@@ -196,7 +201,7 @@ mod tests {
 
     fn hand_in(key: &str, name: &str) -> StudentWork {
         StudentWork {
-            student: Student { key: key.into(), name: name.into(), moodle: None },
+            student: Student { key: key.into(), name: name.into(), moodle: None, email: None },
             content: HandInContent::Files {
                 hand_in: HandIn::of_one(format!("{name}.vert"), "void main() {}"),
                 places: vec![FileLocation {

@@ -21,6 +21,9 @@ pub struct Student {
     pub name: String,
     /// How Moodle names them, where the file came out of a Moodle download.
     pub moodle: Option<Participant>,
+    /// Their mail address, where the roster has one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub email: Option<String>,
 }
 
 /// A student, or where groups hand in a group, as Moodle's files name them.

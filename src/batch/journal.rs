@@ -237,7 +237,7 @@ mod tests {
     }
 
     fn record(key: &str, outcome: Outcome) -> JournalRecord {
-        let student = Student { key: key.into(), name: "田中\n花子".into(), moodle: None };
+        let student = Student { key: key.into(), name: "田中\n花子".into(), moodle: None, email: None };
         JournalRecord { student, path: Some("a/b.vert".into()), sha256: Some("00".into()), outcome }
     }
 

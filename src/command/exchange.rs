@@ -38,7 +38,7 @@ fn class(wish: &GradeRequest<'_>, format: ClassFormat) -> Class {
     let GradeRequest { arguments, assignment, language, .. } = wish;
     let name = files::names(&arguments.files);
     let mut entry = ClassEntry {
-        student: Student { key: "submission".into(), name: name.clone(), moodle: None },
+        student: Student { key: "submission".into(), name: name.clone(), moodle: None, email: None },
         places: files::places(&arguments.files),
         outcome: Outcome::NotGraded(Text::default()),
         sources: vec![],

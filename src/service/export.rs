@@ -29,6 +29,7 @@ pub async fn of_student(service: &Service, student: &StudentRecord) -> Result<Ve
         "number": student.number,
         "name": student.name,
         "group": student.group_name,
+        "email": student.email,
         "moodle": student.moodle,
         "is_on_roster": student.is_on_roster(),
         "hand_ins": hand_ins,

@@ -17,6 +17,7 @@ on_both!(
     a_moodle_archive_is_graded_behind_the_scenes,
     what_is_no_archive_is_said_to_be_none,
     students_own_files_come_in_every_format,
+    gradescope_knows_students_by_the_rosters_mail_addresses,
     everything_graded_again_stands_beside_until_it_is_adopted,
 );
 
@@ -191,5 +192,23 @@ async fn everything_graded_again_stands_beside_until_it_is_adopted(database: Dat
     assert_eq!(stored.report.expect("a report").probes.seed, regrading.seed);
     let assignment = bench.state.store.assignment("ggsample06").await.expect("an assignment");
     assert_eq!(assignment.seed, regrading.seed);
+    bench.finish().await;
+}
+
+async fn gradescope_knows_students_by_the_rosters_mail_addresses(database: Database) {
+    let bench = Bench::new(database).await;
+    let roster = "ID number,Full name,Email address\nS1,和田 花子,s1@example.ac.jp\nS2,B,\n";
+    assert_eq!(bench.send(request("PUT", "/api/v1/roster", "text/csv", roster)).await.status, StatusCode::OK);
+    let address = "/api/v1/submissions?student=S1";
+    assert_eq!(bench.send(request("POST", address, "text/plain", right())).await.status, StatusCode::CREATED);
+    let table = bench.send(request("GET", "/api/v1/class/files/gradescope-grades", "", "")).await;
+    let table = String::from_utf8(table.body).expect("text");
+    assert!(table.contains("\n和田 花子,S1,s1@example.ac.jp,100.0,100.0,Graded,"), "{table}");
+    assert!(table.contains("\nB,S2,,"), "{table}");
+    // It goes with another roster.
+    let listed = bench.send(request("GET", "/api/v1/roster", "", "")).await.json();
+    assert_eq!(listed["students"][0]["email"], "s1@example.ac.jp");
+    let roster = bench.send(request("PUT", "/api/v1/roster", "text/csv", "ID number,Full name\nS1,A\n")).await;
+    assert_eq!(roster.json()["students"][0]["email"], "");
     bench.finish().await;
 }

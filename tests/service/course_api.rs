@@ -70,7 +70,10 @@ async fn a_program_sets_a_course_up_and_runs_it(database: Database) {
     let roster =
         roster.header(header::CONTENT_TYPE, "text/csv").body(Body::from("number,name,group\nS1,Wada,A\nS2,Ito,\n"));
     let roster = bench.send(roster.expect("a request")).await;
-    assert_eq!(roster.json()["students"][0], json!({ "number": "S1", "name": "Wada", "group": "A", "moodle": null }));
+    assert_eq!(
+        roster.json()["students"][0],
+        json!({ "number": "S1", "name": "Wada", "group": "A", "email": "", "moodle": null })
+    );
     let codes = read(&bench, "/c/cg/api/v1/codes").await;
     let code = codes["codes"][0]["code"].as_str().expect("a code").to_owned();
     assert!(codes["codes"][0]["link"].as_str().expect("a link").starts_with("http://ggrade.example/c/cg/join/"));

@@ -22,7 +22,7 @@ fn header(version: &str) -> JournalHeader {
 }
 
 fn student(key: &str) -> Student {
-    Student { key: key.into(), name: key.to_uppercase(), moodle: None }
+    Student { key: key.into(), name: key.to_uppercase(), moodle: None, email: None }
 }
 
 fn graded(report: Report) -> Outcome {

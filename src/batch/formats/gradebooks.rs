@@ -68,9 +68,9 @@ pub fn nbgrader(class: &Class) -> Result<Vec<u8>, Fault> {
             true => StudentPoints { score: Some(0.0), penalty: 0.0 },
             false => StudentPoints::of(entry),
         };
-        let start = [class.assignment.id.as_str(), "", "", &entry.student.key, &entry.student.name, "", ""].map(cell);
+        let start = [class.assignment.id.as_str(), "", "", &entry.student.key, &entry.student.name, ""].map(cell);
         let numbers = [points.score, points.score.map(|_| points.penalty), points.total(), max_points(entry, class)];
-        start.into_iter().chain(numbers.map(float)).collect()
+        start.into_iter().chain([email(entry)]).chain(numbers.map(float)).collect()
     };
     table(NBGRADER.map(str::to_owned).into(), class.entries.iter().map(row))
 }
@@ -93,8 +93,8 @@ pub fn canvas(class: &Class) -> Result<Vec<u8>, Fault> {
     table(header, std::iter::once(points).chain(class.entries.iter().map(row)))
 }
 
-/// What Gradescope's *Download grades* gives, for tools that read it. Mail addresses and ids of Gradescope's are not
-/// known and empty.
+/// What Gradescope's *Download grades* gives, for tools that read it. A mail address is there where the roster
+/// has one; ids of Gradescope's are not known and empty.
 pub fn gradescope(class: &Class) -> Result<Vec<u8>, Fault> {
     let row = |entry: &ClassEntry| {
         let status = match &entry.outcome {
@@ -107,7 +107,7 @@ pub fn gradescope(class: &Class) -> Result<Vec<u8>, Fault> {
         vec![
             cell(&entry.student.name),
             cell(&entry.student.key),
-            String::new(),
+            email(entry),
             float(StudentPoints::of(entry).total()),
             float(most),
             status.to_owned(),
@@ -125,6 +125,11 @@ fn table(header: Vec<String>, rows: impl Iterator<Item = Vec<String>>) -> Result
     write(&mut writer, std::iter::once(header).chain(rows))?;
     drop(writer);
     Ok(bytes)
+}
+
+/// Their mail address, as far as it is known.
+fn email(entry: &ClassEntry) -> String {
+    cell(entry.student.email.as_deref().unwrap_or_default())
 }
 
 /// Whether nothing was handed in.

@@ -39,7 +39,7 @@ pub(super) fn entry(index: usize, outcome: Outcome) -> ClassEntry {
     let key = format!("student-{index}");
     ClassEntry {
         places: vec![place(format!("{key}/ggsample06.vert"))],
-        student: Student { name: format!("Student {index}"), key, moodle: None },
+        student: Student { name: format!("Student {index}"), key, moodle: None, email: None },
         outcome,
         sources: vec![samples::source("ggsample06.vert")],
         portrait: None,

@@ -39,6 +39,7 @@ pub(super) fn class(language: Language) -> Class {
                 key: format!("s{number}"),
                 name: (*name).to_owned(),
                 moodle: Some(Participant { name: (*name).to_owned(), number: Some(number) }),
+                email: None,
             },
             places: vec![FileLocation {
                 path: format!("class.zip/{name}_{number}_assignsubmission_file/ggsample06.vert"),

@@ -33,7 +33,7 @@ pub(super) fn students<'a>(everyone: impl Iterator<Item = &'a Who>) -> Vec<Stude
             let times = taken.entry(key.to_ascii_lowercase()).or_default();
             *times += 1;
             let key = if *times == 1 { key } else { format!("{key}.{times}") };
-            Student { key, name: who.name.clone(), moodle: who.moodle.clone() }
+            Student { key, name: who.name.clone(), moodle: who.moodle.clone(), email: None }
         })
         .collect()
 }

@@ -7,7 +7,7 @@ use crate::report::samples;
 
 fn entry(name: &str, outcome: Outcome) -> ClassEntry {
     ClassEntry {
-        student: Student { key: name.into(), name: name.into(), moodle: None },
+        student: Student { key: name.into(), name: name.into(), moodle: None, email: None },
         places: Vec::new(),
         outcome,
         sources: Vec::new(),

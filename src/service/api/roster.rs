@@ -25,6 +25,8 @@ pub(super) struct RosterStudentJson {
     name: String,
     /// Group; empty where there is none.
     group: String,
+    /// Mail address; empty where the roster says none.
+    email: String,
     /// The number by which Moodle's files name them.
     moodle: Option<i64>,
 }
@@ -61,6 +63,7 @@ async fn json(service: &Service) -> Result<RosterJson, Problem> {
         number: student.number,
         name: student.name,
         group: student.group_name,
+        email: student.email,
         moodle: student.moodle,
     };
     Ok(RosterJson { students: service.store.roster().await?.into_iter().map(student).collect() })

@@ -95,6 +95,7 @@ fn line(student: StudentRecord) -> RosterLine {
         name: student.name,
         moodle: student.moodle.map(i64::unsigned_abs),
         group: student.group_name,
+        email: student.email,
     }
 }
 

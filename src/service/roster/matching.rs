@@ -134,11 +134,12 @@ mod tests {
             moodle,
             code_generation: 0,
             group_name: String::new(),
+            email: String::new(),
         }
     }
 
     fn folder(name: &str) -> Entry {
-        Entry { key: name.into(), name: name.into(), moodle: None }
+        Entry { key: name.into(), name: name.into(), moodle: None, email: None }
     }
 
     fn of_moodle(name: &str, number: u64) -> Entry {
@@ -146,6 +147,7 @@ mod tests {
             key: number.to_string(),
             name: name.into(),
             moodle: Some(Participant { name: name.into(), number: Some(number) }),
+            email: None,
         }
     }
 

@@ -29,6 +29,8 @@ const NAME: [&str; 9] =
 const FAMILY: [&str; 5] = ["姓", "surname", "lastname", "familyname", "last"];
 const GIVEN: [&str; 5] = ["名", "firstname", "givenname", "forename", "first"];
 const MOODLE: [&str; 2] = ["識別子", "identifier"];
+const EMAIL: [&str; 9] =
+    ["メールアドレス", "メール", "eメール", "電子メール", "email", "emailaddress", "e-mail", "e-mailaddress", "mail"];
 const GROUP: [&str; 6] = ["グループ", "班", "クラス", "group", "groups", "section"];
 
 /// Lines in which a heading is looked for: some lists begin with the name of the course.
@@ -46,6 +48,7 @@ struct Heading {
     given: Option<usize>,
     moodle: Option<usize>,
     group: Option<usize>,
+    email: Option<usize>,
 }
 
 impl Heading {
@@ -67,6 +70,7 @@ impl Heading {
             given: find(&GIVEN),
             moodle: find(&MOODLE),
             group: find(&GROUP),
+            email: find(&EMAIL),
         })
     }
 }
@@ -169,6 +173,7 @@ fn by_heading(heading: &Heading, cells: &[String]) -> Option<RosterLine> {
         name,
         moodle: participant(cell(heading.moodle)),
         group: cell(heading.group).to_owned(),
+        email: cell(heading.email).to_owned(),
     })
 }
 
@@ -178,7 +183,7 @@ fn by_shape(cells: &[String]) -> Option<RosterLine> {
     let moodle = cells.iter().find_map(|cell| participant(cell));
     let others = cells.iter().enumerate().filter(|(index, cell)| *index != place && !cell.is_empty());
     let name = others.map(|(_, cell)| cell.as_str()).find(|cell| participant(cell).is_none()).unwrap_or_default();
-    Some(RosterLine { number: number(&cells[place])?, name: name.to_owned(), moodle, group: String::new() })
+    Some(RosterLine { number: number(&cells[place])?, name: name.to_owned(), moodle, ..RosterLine::default() })
 }
 
 /// The number in `Participant 1234`, as Moodle's worksheet writes it.
@@ -252,18 +257,23 @@ mod tests {
     fn what_stands_above_the_heading_is_no_student() {
         let list = "科目名,コンピュータグラフィックス 2026\n履修者数,1\n\nNo.,学籍番号,氏名,学年\n1,s1,和田 花子,3\n";
         assert_eq!(of(list), [line("S1", "和田 花子")]);
-        assert_eq!(of("Name,SID,Email\nHanako Wada,s1,h@example.org\n"), [line("S1", "Hanako Wada")]);
+        let with_mail = RosterLine { email: "h@example.org".to_owned(), ..line("S1", "Hanako Wada") };
+        assert_eq!(of("Name,SID,Email\nHanako Wada,s1,h@example.org\n"), [with_mail]);
     }
 
     #[test]
     fn moodles_own_lists_are_read_by_their_headings() {
-        let of_moodle = |moodle| RosterLine { moodle, ..line("S1", "和田 花子") };
-        assert_eq!(of("姓,名,IDナンバー,メールアドレス\n和田,花子,s1,hanako@example.ac.jp\n"), [of_moodle(None)]);
+        let of_moodle =
+            |moodle, email: &str| RosterLine { moodle, email: email.to_owned(), ..line("S1", "和田 花子") };
+        assert_eq!(
+            of("姓,名,IDナンバー,メールアドレス\n和田,花子,s1,hanako@example.ac.jp\n"),
+            [of_moodle(None, "hanako@example.ac.jp")]
+        );
         assert_eq!(
             of("Identifier,Full name,ID number,Email address,Status\nParticipant 4711,和田 花子,s1,h@example.org,x\n"),
-            [of_moodle(Some(4711))]
+            [of_moodle(Some(4711), "h@example.org")]
         );
-        assert_eq!(of("識別子,フルネーム,ユーザ名\n参加者 4711,和田 花子,s1\n"), [of_moodle(Some(4711))]);
+        assert_eq!(of("識別子,フルネーム,ユーザ名\n参加者 4711,和田 花子,s1\n"), [of_moodle(Some(4711), "")]);
         let of_group = RosterLine { group: "火曜 B".to_owned(), ..line("S1", "和田 花子") };
         assert_eq!(of("username,name,グループ\ns1,和田 花子,火曜 B\n"), [of_group]);
         // Whoever calls the number by its letters alone says so in a heading.

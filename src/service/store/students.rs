@@ -20,6 +20,8 @@ pub struct StudentRecord {
     pub code_generation: i64,
     /// The group of the course that they are in; empty where the roster says none.
     pub group_name: String,
+    /// Mail address; empty where the roster says none.
+    pub email: String,
 }
 
 impl StudentRecord {
@@ -40,6 +42,8 @@ pub struct RosterLine {
     pub moodle: Option<u64>,
     /// Their group; empty where the roster has none.
     pub group: String,
+    /// Their mail address; empty where the roster has none.
+    pub email: String,
 }
 
 /// An entry of an archive, and who of the roster it is.
@@ -59,7 +63,7 @@ impl Store {
         const INSERT: &str = "INSERT INTO students (id, number, name, on_roster, created_at) \
                               SELECT $1, $2, '', 0, $3 WHERE NOT EXISTS (SELECT 1 FROM students WHERE on_roster = 1) \
                               ON CONFLICT (number) DO NOTHING";
-        const SELECT: &str = "SELECT id, number, name, on_roster, moodle, code_generation, group_name FROM students WHERE number = $1 \
+        const SELECT: &str = "SELECT id, number, name, on_roster, moodle, code_generation, group_name, email FROM students WHERE number = $1 \
                               AND (on_roster = 1 OR NOT EXISTS (SELECT 1 FROM students WHERE on_roster = 1))";
         let found = on!(&self.read, db => sqlx::query_as(SELECT).bind(number).fetch_optional(db).await?);
         if found.is_some() {
@@ -72,22 +76,19 @@ impl Store {
 
     /// The student with this id.
     pub async fn student_by_id(&self, id: &str) -> Result<Option<StudentRecord>> {
-        const SQL: &str =
-            "SELECT id, number, name, on_roster, moodle, code_generation, group_name FROM students WHERE id = $1";
+        const SQL: &str = "SELECT id, number, name, on_roster, moodle, code_generation, group_name, email FROM students WHERE id = $1";
         Ok(on!(&self.read, db => sqlx::query_as(SQL).bind(id).fetch_optional(db).await?))
     }
 
     /// The student with this number, whether the roster has them or not.
     pub async fn student_by_number(&self, number: &str) -> Result<Option<StudentRecord>> {
-        const SQL: &str =
-            "SELECT id, number, name, on_roster, moodle, code_generation, group_name FROM students WHERE number = $1";
+        const SQL: &str = "SELECT id, number, name, on_roster, moodle, code_generation, group_name, email FROM students WHERE number = $1";
         Ok(on!(&self.read, db => sqlx::query_as(SQL).bind(number).fetch_optional(db).await?))
     }
 
     /// Everyone, by number.
     pub async fn students(&self) -> Result<Vec<StudentRecord>> {
-        const SQL: &str =
-            "SELECT id, number, name, on_roster, moodle, code_generation, group_name FROM students ORDER BY number";
+        const SQL: &str = "SELECT id, number, name, on_roster, moodle, code_generation, group_name, email FROM students ORDER BY number";
         Ok(on!(&self.read, db => sqlx::query_as(SQL).fetch_all(db).await?))
     }
 
@@ -118,13 +119,13 @@ impl Store {
         Ok(count > 0)
     }
 
-    /// Takes a roster in place of the last one; who is not on it any more keeps their files.
+    /// Takes a roster in place of the last one; who is not on it any more keeps their files, and no mail address is kept of them.
     pub async fn set_roster(&self, roster: &[RosterLine], now: Millis) -> Result<()> {
-        const CLEAR: &str = "UPDATE students SET on_roster = 0";
-        const INSERT: &str = "INSERT INTO students (id, number, name, on_roster, created_at, moodle, group_name) \
-                              VALUES ($1, $2, $3, 1, $4, $5, $6) ON CONFLICT (number) DO UPDATE SET \
+        const CLEAR: &str = "UPDATE students SET on_roster = 0, email = ''";
+        const INSERT: &str = "INSERT INTO students (id, number, name, on_roster, created_at, moodle, group_name, email) \
+                              VALUES ($1, $2, $3, 1, $4, $5, $6, $7) ON CONFLICT (number) DO UPDATE SET \
                               name = excluded.name, on_roster = 1, moodle = excluded.moodle, \
-                              group_name = excluded.group_name";
+                              group_name = excluded.group_name, email = excluded.email";
         on!(&self.write, db => {
             let mut transaction = db.begin().await?;
             sqlx::query(CLEAR).execute(&mut *transaction).await?;
@@ -136,6 +137,7 @@ impl Store {
                     .bind(now)
                     .bind(line.moodle.map(signed))
                     .bind(&line.group)
+                    .bind(&line.email)
                     .execute(&mut *transaction)
                     .await?;
             }
@@ -150,8 +152,7 @@ impl Store {
                            VALUES ($1, $2, $3, CAST($4 AS BIGINT), $5) ON CONFLICT (number) DO UPDATE SET \
                            name = CASE WHEN students.name = '' THEN excluded.name ELSE students.name END, \
                            on_roster = CASE WHEN excluded.on_roster = 1 THEN 1 ELSE students.on_roster END";
-        const SELECT: &str =
-            "SELECT id, number, name, on_roster, moodle, code_generation, group_name FROM students WHERE number = $1";
+        const SELECT: &str = "SELECT id, number, name, on_roster, moodle, code_generation, group_name, email FROM students WHERE number = $1";
         let on_roster = i64::from(self.has_roster().await?);
         Ok(on!(&self.write, db => {
             sqlx::query(SQL)

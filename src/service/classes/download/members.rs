@@ -48,6 +48,8 @@ pub(super) async fn members(
         DownloadSelection::Students(pick) => {
             let mut members: Vec<ClassMember> = Vec::new();
             let mut keys = HashSet::new();
+            let roster = state.store.roster().await?.into_iter();
+            let mut emails: HashMap<String, String> = roster.map(|student| (student.id, student.email)).collect();
             let mut participants = match sheet {
                 Some(sheet) => participants(state, sheet).await?,
                 None => HashMap::new(),
@@ -57,7 +59,9 @@ pub(super) async fn members(
                 let (stored, hand_in) = with_files(state, chosen.map(|row| row.row.submission.id.as_str())).await?;
                 let path = stored.as_ref().map(|stored| stored.submission.name.clone());
                 let moodle = participants.remove(&person.key).or(person.moodle);
+                let email = emails.remove(&person.key).filter(|email| !email.is_empty());
                 let student = student(person.number, person.name, moodle, &person.key, &mut keys);
+                let student = Student { email, ..student };
                 members.push(ClassMember { student, path, stored, hand_in, note: person.note });
             }
             members.sort_by(|a, b| a.student.key.cmp(&b.student.key));
@@ -83,7 +87,7 @@ pub(super) fn student(
         }
         key = format!("{known}.{time}");
     }
-    Student { key, name, moodle }
+    Student { key, name, moodle, email: None }
 }
 
 /// The submission that counts.

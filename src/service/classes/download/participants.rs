@@ -24,5 +24,6 @@ fn entry(Listed { known_as, participant }: &Listed) -> Student {
         key: participant.number.unwrap_or_default().to_string(),
         name: known_as.clone(),
         moodle: Some(Participant { name: known_as.clone(), number: participant.number }),
+        email: None,
     }
 }
