@@ -25,7 +25,7 @@ pub fn run(arguments: &DoctorArguments) -> Result<ExitStatus, Fault> {
     let what = installation.description();
     let head = format!("ggrade {} ({})", env!("CARGO_PKG_VERSION"), program.display());
     say(true, &Text::new(format!("{head}: {}", what.en), format!("{head}: {}", what.ja)), language);
-    let (mut healthy, mut said) = match check_sandbox(language) {
+    let (mut healthy, mut said) = match check_worker(language) {
         Ok(closed) => (closed, None),
         Err(fault) => (complain(&fault, language), Some(fault.message)),
     };
@@ -65,9 +65,10 @@ fn settings(assignment: &Arc<Assignment>) -> Settings {
     Settings { policy: Policy::BestEffort, ..Settings::new(Arc::clone(assignment)).for_one_grading() }
 }
 
-/// Says of each layer of the sandbox whether it holds, and what a worker could do in spite of all.
-fn check_sandbox(language: Language) -> Result<bool, Fault> {
-    let protection = Pool::start(settings(choice::default()), 1)?.protection().clone();
+/// Says of each layer of the sandbox whether it holds, what a worker could do in spite of all, and what it draws with.
+fn check_worker(language: Language) -> Result<bool, Fault> {
+    let pool = Pool::start(settings(choice::default()), 1)?;
+    let protection = pool.protection();
     for state in &protection.layers {
         let name = state.layer.name();
         let en = format!("sandbox, {}: {}", name.en, state.detail);
@@ -86,6 +87,8 @@ fn check_sandbox(language: Language) -> Result<bool, Fault> {
         ),
     };
     say(protection.is_closed(), &text, language);
+    let Environment { renderer, driver, .. } = pool.environment();
+    say(true, &Text::verbatim(format!("Vulkan: {renderer} ({driver})")), language);
     Ok(protection.is_closed())
 }
 
@@ -98,12 +101,10 @@ fn check_assignment(assignment: &Arc<Assignment>, language: Language) -> Result<
     let hand_in = handed_out(assignment);
     let submission = GradingTask { assignment, hand_in: &hand_in, order: Order::default(), wants_frames: false };
     let start = Instant::now();
-    let Report { verdict, environment, .. } = pool.grade(submission)?.report;
+    let Report { verdict, .. } = pool.grade(submission)?.report;
     let is_right = verdict == Verdict::Wrong;
     let id = &assignment.id;
     let text = if is_right {
-        let driver = Text::verbatim(format!("Vulkan: {} ({})", environment.renderer, environment.driver));
-        say(true, &driver, language);
         let (warm, graded) = (warm.as_millis(), start.elapsed().as_millis());
         Text::new(
             format!("{id}: a worker is ready in {warm} ms and grades the handed-out file in {graded} ms"),
