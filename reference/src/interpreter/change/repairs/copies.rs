@@ -55,8 +55,8 @@ pub(super) fn together(found: Vec<(u32, ProgramRepair)>, copied: &HashSet<u32>) 
     alone.into_iter().map(|(_, repair)| repair).chain(joined).collect()
 }
 
-/// Where a copy stands: in which expression, and where in it.
-fn place(repair: &ProgramRepair) -> Option<(usize, &Path)> {
+/// Where a change, or the first copy of one, stands: in which expression, and where in it.
+pub(super) fn place(repair: &ProgramRepair) -> Option<(usize, &Path)> {
     repair.places().first().map(|(number, path, _)| (*number, path))
 }
 

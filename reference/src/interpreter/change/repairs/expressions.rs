@@ -4,6 +4,7 @@ use super::super::inverse::mistake_of;
 use super::super::programs::{guess, of_name};
 use super::super::tree::{ExpressionPlace, Path, TypedNames, paths};
 use super::super::{Change, NameScope, Operator, bare, calls, changes, written};
+use super::copies::place;
 use super::declared::Declared;
 use super::undone;
 use super::{Ingredients, ProgramRepair, Where};
@@ -47,10 +48,9 @@ pub(super) fn of_expression(
     }
     found.sort_by_key(|(_, repair)| repair.mistake);
     let mut known = HashSet::new();
-    found.retain(|(_, repair)| {
-        let path = repair.places().first().map(|(_, path, _)| path.clone());
-        known.insert((path, repair.texts[1].clone()))
-    });
+    let is_new = found.iter().map(|(_, repair)| known.insert((place(repair), &repair.texts[1])));
+    let mut is_new = is_new.collect::<Vec<_>>().into_iter();
+    found.retain(|_| is_new.next() == Some(true));
     found
 }
 
