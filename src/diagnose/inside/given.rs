@@ -1,11 +1,11 @@
 //! What a text is given, and whether its colour has anything of it.
 
 use super::Stage;
-use super::walk::{made_of, roots};
+use super::walk::roots;
 use crate::diagnose::Evidence;
 use crate::diagnose::columns::is_constant;
 use crate::diagnose::trials::{FUEL_OF_TRACE, StageChanges, chosen, place};
-use reference::interpreter::trace::{Trace, What};
+use reference::interpreter::trace::{Event, Trace, What};
 use reference::interpreter::{Program, is_lookup};
 use reference::traced::{Bench, Place, TracedProgram};
 use std::collections::BTreeSet;
@@ -61,10 +61,9 @@ fn way(trace: &Trace, roots: &[usize]) -> BTreeSet<usize> {
     let mut way = BTreeSet::new();
     let mut open = roots.to_vec();
     while let Some(event) = open.pop() {
-        for part in made_of(trace, &[event]) {
-            if way.insert(part) {
-                open.extend(&trace.events[part].under);
-            }
+        if way.insert(event) {
+            let Event { from, under, .. } = &trace.events[event];
+            open.extend(from.iter().chain(under));
         }
     }
     way
