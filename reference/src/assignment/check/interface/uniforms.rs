@@ -35,6 +35,20 @@ impl InterfaceReader<'_> {
             );
             return Err(self.wrong(at, &place, message));
         }
+        let rests: Vec<&str> = leaves.iter().map(|(leaf, _)| &leaf[path.len()..]).collect();
+        for (key, said) in [("value", &entry.value), ("probe", &entry.probe)] {
+            if let Some(name) = said.as_ref().and_then(|said| values::unknown_member(said, &rests)) {
+                let message = both(
+                    format!(
+                        "`{key}` says something of `{name}`, which `{path}` does not have: correct the name, or remove it"
+                    ),
+                    format!(
+                        "`{key}` に `{name}` が書かれていますが、`{path}` にそのメンバはありません。名前を直すか、取り除いてください"
+                    ),
+                );
+                return Err(self.wrong(at, &place, message));
+            }
+        }
         for (leaf, kind) in leaves {
             let rest = &leaf[path.len()..];
             let feed = self.feed(entry, rest, &leaf, &kind, &place)?;

@@ -127,12 +127,43 @@ pub(super) fn bounds(said: &Toml, path: &str, kind: &Type) -> ValueResult<Option
     }
 }
 
+/// The first member that is written in a table and that no path has. A table stands for each element of an array.
+pub(super) fn unknown_member<'v>(said: &'v Toml, paths: &[&str]) -> Option<&'v str> {
+    let behind = |is_next: &dyn Fn(PathStep<'_>) -> bool| -> Vec<&str> {
+        paths.iter().map(|path| step(path)).filter(|(next, _)| is_next(*next)).map(|(_, rest)| rest).collect()
+    };
+    match said {
+        Toml::Table(table) if table.contains_key("within") => None,
+        Toml::Table(_) if paths.iter().any(|path| path.starts_with('[')) => {
+            unknown_member(said, &behind(&|next| matches!(next, PathStep::Index(_))))
+        }
+        Toml::Table(table) => table.iter().find_map(|(name, inner)| {
+            let behind = behind(&|next| matches!(next, PathStep::Member(own) if own == name));
+            if behind.is_empty() { Some(name.as_str()) } else { unknown_member(inner, &behind) }
+        }),
+        Toml::Array(list) => list.iter().enumerate().find_map(|(at, inner)| {
+            unknown_member(inner, &behind(&|next| matches!(next, PathStep::Index(own) if own == at)))
+        }),
+        _ => None,
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     fn toml(text: &str) -> Toml {
         toml::from_str::<toml::Table>(&format!("x = {text}")).expect(text)["x"].clone()
+    }
+
+    #[test]
+    fn a_member_that_there_is_not_is_named() {
+        let paths = ["[0].position", "[0].colour", "[1].position", "[1].colour"];
+        let unknown = |text: &str| unknown_member(&toml(text), &paths).map(str::to_owned);
+        assert_eq!(unknown("{ positoin = { within = [0, 1] } }").as_deref(), Some("positoin"));
+        assert_eq!(unknown("{ position = { within = [0, 1] }, colour = { within = [0, 1] } }"), None);
+        assert_eq!(unknown("[{ position = 1, colour = 2 }, { position = 1, color = 2 }]").as_deref(), Some("color"));
+        assert_eq!(unknown("{ within = [0, 1] }"), None);
     }
 
     #[test]
