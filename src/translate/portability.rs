@@ -6,8 +6,8 @@ use crate::diagnostic::{Diagnostic, DiagnosticStage};
 use crate::language::Text;
 use crate::source::{self, Source};
 
-/// The first version of the core profile that drivers still have in common.
-const FIRST_COMMON_VERSION: i32 = 330;
+/// The first version that all drivers of the core profile take.
+const FIRST_COMMON_VERSION: i32 = 140;
 /// From this version on, the two shaders may differ in interpolation.
 const FREE_INTERPOLATION: i32 = 440;
 /// From this version on, they may differ in invariance.
