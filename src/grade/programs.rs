@@ -15,6 +15,7 @@ use crate::source::{self, Source};
 use crate::translate::{self, HomeworkProgram, Linked, LinkedInterface, ProgramRefusal, Stage, TranslationRefusal};
 use reference::Assignment;
 use reference::equation::{DISCARDED, Reads};
+use reference::interpreter::ProgramVariable;
 use reference::probes::ProbeSet;
 
 /// The program of a homework, as far as it is not handed in.
@@ -168,7 +169,9 @@ fn overlooked(assignment: &Assignment, sources: &[(Stage, &Source)], linked: &Li
         Stage::Vertex => assignment.pipeline.vertex.uniforms(),
         Stage::Fragment => assignment.pipeline.fragment.uniforms(),
     };
-    let read = sources.iter().flat_map(|(stage, _)| of_stage(stage));
+    // What students name themselves may have any name.
+    let has_a_name = |uniform: &&ProgramVariable| !assignment.free.iter().any(|free| free.kind == uniform.kind);
+    let read = sources.iter().flat_map(|(stage, _)| of_stage(stage)).filter(has_a_name);
     let roots = read.map(|uniform| root(&uniform.name));
     let mut unread: Vec<&str> = roots.filter(|root| !is_named(root)).collect();
     unread.dedup();
