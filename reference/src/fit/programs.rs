@@ -15,7 +15,7 @@ const MOST_PAIRS: usize = 40;
 
 /// What contradicts more than this share of the samples is not run: by what a mistake shows alone, where it need not be what it is
 /// with another one or with what is a matter of taste.
-const CONTRADICTED: f64 = 0.25;
+const CONTRADICTED: f64 = 0.6;
 
 /// A mistake that is a program, and what it shows alone.
 struct Alone<'p> {
