@@ -1,8 +1,8 @@
 //! Places in a syntax tree, and the tree with another expression at one of them.
 
 use crate::interpreter::syntax::{
-    BaseType, Declaration, Expression, ExpressionKind, Function, Item, LoopCondition, Name, Statement, StatementKind,
-    StorageQualifier,
+    BaseType, Declaration, DeclaredVariable, Expression, ExpressionKind, Function, InterfaceBlock, Item, LoopCondition,
+    Name, Statement, StatementKind, StorageQualifier,
 };
 
 /// A place in an expression: which operand of which operand.
@@ -134,6 +134,12 @@ pub fn walk(items: &mut [Item], walk: &mut TreeWalk<'_>) {
                 of_function(function, walk, &mut names);
                 names.truncate(known);
             }
+            // Members of a block without a name of its own are known by theirs.
+            Item::Block(InterfaceBlock { members, instance: None, storage, .. })
+                if *storage != StorageQualifier::Output =>
+            {
+                members.iter().for_each(|member| declare(member, &mut names));
+            }
             Item::Function(_) | Item::Block(_) | Item::Requalification => {}
         }
     }
@@ -222,11 +228,18 @@ fn of_declaration(declaration: &mut Declaration, walk: &mut TreeWalk<'_>, gives:
         if let Some(value) = variable.value.as_mut().filter(|_| gives) {
             (walk.expression)(value, MetAs::Value(Some(&variable.name)), names);
         }
-        if let BaseType::Named(kind) = &declaration.kind.base
-            && variable.lengths.is_empty()
-        {
-            names.push((Name::clone(&variable.name), Name::clone(kind)));
-        }
+        named(variable, &declaration.kind.base, names);
+    }
+}
+
+/// What is declared without values is known from now on.
+fn declare(declaration: &Declaration, names: &mut Vec<(Name, Name)>) {
+    declaration.variables.iter().for_each(|variable| named(variable, &declaration.kind.base, names));
+}
+
+fn named(variable: &DeclaredVariable, kind: &BaseType, names: &mut Vec<(Name, Name)>) {
+    if let (BaseType::Named(kind), true) = (kind, variable.lengths.is_empty()) {
+        names.push((Name::clone(&variable.name), Name::clone(kind)));
     }
 }
 
