@@ -143,6 +143,9 @@ pub fn expression(text: &str) -> Result<(), Refusal> {
     parse::parse_expression(&preprocessed.tokens, HashSet::new()).map(drop)
 }
 
+/// The word that throws a fragment away.
+pub const DISCARD: &str = "discard";
+
 /// Whether GLSL has a function of this name.
 pub fn is_builtin(name: &str) -> bool {
     !builtin::signatures(name).is_empty()

@@ -6,7 +6,7 @@ use crate::accepted::{AcceptedAnswer, Computed};
 use crate::assignment::RubricLine;
 use crate::equation::Reads;
 use crate::fit::{Alternatives, Footprints, TOLERANCE, channel_agrees};
-use crate::interpreter::{Operator, ProgramSlip, outline, program_slips};
+use crate::interpreter::{DISCARD, Operator, ProgramSlip, outline, program_slips};
 use crate::mistake::{Condition, FoundMistake, Mistake};
 use crate::probes::ProbeSet;
 use std::collections::BTreeMap;
@@ -33,8 +33,9 @@ pub(super) fn mistakes(assignment: &Assignment) -> Vec<Mistake> {
         let slips = program_slips(&file.solution.text, file.stage, &is_part).unwrap_or_default();
         for slip in slips {
             let Some(answer) = assignment.linked_with(file, slip.program.clone(), &slip.text) else { continue };
-            // What a function returns has a name where it is known what it is for.
-            let is_told = |name: &&String| !returns(name) || assignment.lines_about(name).next().is_some();
+            // What a function returns, and what decides what is thrown away, has a name where it is known what it is for.
+            let is_variable = |name: &str| !returns(name) && name != DISCARD;
+            let is_told = |name: &&String| is_variable(name) || assignment.lines_about(name).next().is_some();
             let name = slip.name.as_ref().filter(is_told).cloned().unwrap_or_else(|| RESULT.into());
             grouped.entry((slip.operator, name)).or_default().push((slip, answer));
         }

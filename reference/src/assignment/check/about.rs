@@ -7,6 +7,7 @@ mod flow;
 
 use crate::Assignment;
 use crate::feature::Feature;
+use crate::interpreter::DISCARD;
 use crate::interpreter::outline::{Word, words};
 use flow::{Flow, Node, OwnFunction, given, names};
 use std::collections::BTreeSet;
@@ -20,6 +21,8 @@ struct Belongs {
     given: BTreeSet<Node>,
     /// Those that are given other values as well, or of whose value that is a part.
     parts: BTreeSet<Node>,
+    /// Whether it is what throws fragments away.
+    throws_away: bool,
 }
 
 /// Completes the lines of the rubric by what they are about; of what the folder says so of some line, that holds.
@@ -50,7 +53,8 @@ pub(super) fn complete(assignment: &mut Assignment) {
             Some(_) => lines_of.about(own),
             None => lines_of.rest.clone(),
         };
-        let more = lines_of.named(about).into_iter().filter(|name| !said.contains(name));
+        let thrown = lines_of.belongs[own].throws_away.then(|| DISCARD.to_owned());
+        let more = lines_of.named(about).into_iter().chain(thrown).filter(|name| !said.contains(name));
         assignment.rubric[at].variables.extend(more);
     }
 }
@@ -67,7 +71,9 @@ fn belongs(flow: &Flow<'_>, replaced: &[[String; 2]]) -> Option<Belongs> {
         let mut gone = words(value);
         for statement in &own.text.statements {
             let is_decided_by_it = statement.under.iter().any(is_replaced);
-            if is_decided_by_it {
+            let throws_away = statement.words.iter().any(|word| word.text == DISCARD && is_replaced(word));
+            belongs.throws_away |= throws_away;
+            if is_decided_by_it || throws_away {
                 gone.extend(statement.under.iter().cloned());
             }
             for giving in given(statement) {

@@ -1,5 +1,6 @@
 //! Places in a syntax tree, and the tree with another expression at one of them.
 
+use crate::interpreter::DISCARD;
 use crate::interpreter::syntax::{
     BaseType, Declaration, DeclaredVariable, Expression, ExpressionKind, Function, InterfaceBlock, Item, LoopCondition,
     Name, Statement, StatementKind, StorageQualifier,
@@ -111,7 +112,8 @@ pub struct TreeWalk<'w> {
 /// What an expression is where a walk meets it.
 #[derive(Clone, Copy, Debug)]
 pub enum MetAs<'n> {
-    /// A value, and the variable that is given it, or the function that returns it.
+    /// A value, and the variable that is given it, or the function that returns it; [`DISCARD`] of what decides whether a fragment is
+    /// thrown away.
     Value(Option<&'n Name>),
     /// What a loop goes on by.
     Bound,
@@ -197,7 +199,8 @@ fn of_statement(
             all.iter_mut().for_each(|statement| of_statement(statement, result, walk, names));
         }
         StatementKind::If(condition, yes, no) => {
-            (walk.expression)(condition, MetAs::Value(None), names);
+            let thrown = throws_away(yes).then(|| Name::from(DISCARD));
+            (walk.expression)(condition, MetAs::Value(thrown.as_ref()), names);
             of_statement(yes, result, walk, names);
             if let Some(no) = no {
                 of_statement(no, result, walk, names);
@@ -220,6 +223,15 @@ fn of_statement(
         _ => {}
     }
     names.truncate(known);
+}
+
+/// Whether a statement does nothing but throw the fragment away.
+fn throws_away(statement: &Statement) -> bool {
+    match &statement.kind {
+        StatementKind::Discard => true,
+        StatementKind::Block(all) => matches!(&all[..], [only] if throws_away(only)),
+        _ => false,
+    }
 }
 
 /// Each variable is known to what comes after it. `gives`: whether their values are gone through.
