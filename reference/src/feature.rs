@@ -2,6 +2,7 @@
 
 use crate::Assignment;
 use crate::accepted::{AcceptedAnswer, Computed};
+use crate::assignment::RubricLine;
 use crate::equation::Reads;
 use crate::interpreter::Stage;
 use crate::mistake::MistakeForm;
@@ -33,6 +34,13 @@ impl Assignment {
             Some(Some(Feature::Program(program))) => program.replaced.len() == 1,
             _ => true,
         }
+    }
+
+    /// Whether a line judges what is left of the solution without the features of the others.
+    pub fn judges_the_rest(&self, line: &RubricLine) -> bool {
+        let own = self.rubric.iter().position(|own| own.id == line.id);
+        let has_none = own.and_then(|own| self.features.get(own)).is_some_and(Option::is_none);
+        has_none && !self.judges_position(line) && self.features.iter().any(Option::is_some)
     }
 
     /// Whether what lines judge is known by the solution without it, and not by definitions.

@@ -121,6 +121,13 @@ impl Derived {
             let own = judged.iter().find(|judged| judged.line == number);
             own.is_none_or(|judged| !judged.is_right)
         };
+        // What nothing shows by itself is wrong where it is made of what is wrong, and the others with it.
+        let is_hidden = |(number, own): (usize, &RubricLine)| {
+            self.assignment.judges_the_rest(own) && !judged.iter().any(|judged| judged.line == number)
+        };
+        if let Some((_, hidden)) = colours.clone().find(|own| is_hidden(*own)) {
+            return hidden.id == line.id;
+        }
         // Where every line is right by itself, it is what they have in common.
         let is_any = colours.clone().any(|(number, _)| is_touched(number));
         colours.any(|(number, own)| own.id == line.id && (!is_any || is_touched(number)))

@@ -62,6 +62,12 @@ pub(super) fn charged(assignment: &Assignment, terms: &[TermJudgement], repaired
     let about = name.into_iter().flat_map(|name| assignment.lines_about(name));
     // Where all stands is seen by itself.
     let about: Vec<&RubricLine> = about.filter(is_colour).collect();
+    // What nothing shows by itself is wrong where it is made of what is wrong, and the others with it.
+    let is_hidden =
+        |line: &&RubricLine| assignment.judges_the_rest(line) && !terms.iter().any(|term| term.line == line.id);
+    if let Some(hidden) = about.iter().copied().find(is_hidden).filter(|_| !terms.is_empty()) {
+        return vec![hidden.id.clone()];
+    }
     if !about.is_empty() {
         let wrong: Vec<&RubricLine> = about.iter().copied().filter(is_wrong).collect();
         let charged = if wrong.is_empty() { about } else { wrong };
