@@ -34,14 +34,34 @@ pub struct RecognisedUniform<'a> {
     pub as_what: &'a Free,
 }
 
-/// More ways than this are not tried: three matrices that may each be one of eight make 512, and a run of a few probes takes 1 ms.
-const MOST_WAYS: usize = 600;
+/// More ways than this are not tried: four matrices that may each be one of eleven make 14,641, which take some 0.1 s.
+const MOST_WAYS: usize = 15_000;
+
+/// So many are tried at more than one probe of a camera.
+const MOST_LIKELY: usize = 600;
+
+/// So many ways and probes are run at once: a run costs as much as some dozens of probes, and each of them takes memory.
+const LANES: usize = 4096;
 
 /// So many cameras are tried first.
 const FEW_GROUPS: usize = 2;
 
 /// A colour this near to the right one is right, as probes are judged.
 const TOLERANCE: f64 = 2e-3;
+
+/// The ways that are right most often, in their order. `right`: how often each of some is right at the first probes.
+fn likely(ways: usize, right: &dyn Fn(&[usize]) -> Vec<usize>) -> Vec<usize> {
+    let all: Vec<usize> = (0..ways).collect();
+    if ways <= MOST_LIKELY {
+        return all;
+    }
+    let counts: Vec<usize> = all.chunks(LANES / FEW_GROUPS).flat_map(right).collect();
+    let mut likely = all;
+    likely.sort_by_key(|number| std::cmp::Reverse(counts[*number]));
+    likely.truncate(MOST_LIKELY);
+    likely.sort_unstable();
+    likely
+}
 
 impl Assignment {
     /// What the uniforms of a student's program are that the homework does not know. `probes` decide where there are several ways.
@@ -73,28 +93,40 @@ impl Assignment {
         };
         let linked = Pipeline::link(vertex, fragment, None).ok();
         let (Some(ways @ 2..=MOST_WAYS), Some(pipeline)) = (ways, linked) else { return way(0) };
-        // What does not fit at a few probes need not be run at all of them.
-        let (_, few) = probes.part(FEW_GROUPS);
         let extended = self.with(&way(0));
-        let right = |taken: &[RecognisedUniform<'_>], probes: &ProbeSet| -> usize {
-            let given = extended.probes_given(probes, taken.iter().map(|taken| taken.as_what));
-            let Some(shown) = extended.shown_once(&pipeline, &given) else { return 0 };
+        let right = |numbers: &[usize], probes: &ProbeSet| {
+            let values: Vec<Vec<Value>> = probes.groups.iter().map(|group| extended.added_values(group)).collect();
+            let given = |number: &usize| {
+                let mut theirs = probes.clone();
+                for (group, values) in theirs.groups.iter_mut().zip(&values) {
+                    group.uniforms.extend(way(*number).iter().map(|taken| values[self.place(taken.as_what)].clone()));
+                }
+                theirs
+            };
+            let all = ProbeSet::joined(numbers.iter().map(given));
+            let shown = extended.shown_once(&pipeline, &all).unwrap_or_default();
             let is_right = |(probe, shown): &(&Probe, &ProbeOutput)| {
                 (probe.colour - shown.colour).abs().max_element() <= TOLERANCE
             };
-            probes.iter().zip(&shown).filter(is_right).count()
+            let own = shown.chunks(probes.probes.len().max(1));
+            let mut counts: Vec<usize> = own.map(|own| probes.iter().zip(own).filter(is_right).count()).collect();
+            counts.resize(numbers.len(), 0);
+            counts
         };
+        // What does not fit at a few probes need not be run at all of them.
+        let (_, few) = probes.part(FEW_GROUPS);
+        let likely = likely(ways, &|numbers| right(numbers, &few.thinned(1)));
         let open = may_be.iter().filter(|may_be| may_be.len() > 1).count();
         let mut best = (0, 0);
-        for number in 0..ways {
-            let taken = way(number);
-            let count = right(&taken, &few);
-            if count == few.probes.len() && right(&taken, probes) == probes.probes.len() {
-                return taken;
-            }
-            // Of one uniform alone it is taken that it is what the homework expects: what else is wrong is known by that.
-            if count > best.0 && open > 1 {
-                best = (count, number);
+        for numbers in likely.chunks(LANES / few.probes.len().max(1)) {
+            for (count, number) in right(numbers, &few).into_iter().zip(numbers) {
+                if count == few.probes.len() && right(&[*number], probes)[0] == probes.probes.len() {
+                    return way(*number);
+                }
+                // Of one uniform alone it is taken that it is what the homework expects: what else is wrong is known by that.
+                if count > best.0 && open > 1 {
+                    best = (count, *number);
+                }
             }
         }
         way(best.1)
@@ -123,16 +155,16 @@ impl Assignment {
         theirs
     }
 
-    /// Probes with uniforms behind those of the homework.
-    fn probes_given<'f>(&self, probes: &ProbeSet, added: impl Iterator<Item = &'f Free> + Clone) -> ProbeSet {
-        let mut theirs = probes.clone();
-        for group in &mut theirs.groups {
-            let moment = self.moment_of(group);
-            let none = |free: &Free| Value::of(free.kind.clone(), vec![f64::NAN; free.kind.slots().unwrap_or(0)]);
-            let value = |free: &'f Free| free.feed.value(&free.kind, &moment).unwrap_or_else(|| none(free));
-            group.uniforms.extend(added.clone().map(value));
-        }
-        theirs
+    /// What everything that a uniform may be is under a camera.
+    fn added_values(&self, group: &ProbeGroup) -> Vec<Value> {
+        let moment = self.moment_of(group);
+        let none = |free: &Free| Value::of(free.kind.clone(), vec![f64::NAN; free.kind.slots().unwrap_or(0)]);
+        let value = |free: &Free| free.feed.value(&free.kind, &moment).unwrap_or_else(|| none(free));
+        self.free.iter().map(value).collect()
+    }
+
+    fn place(&self, free: &Free) -> usize {
+        self.free.iter().position(|own| std::ptr::eq(own, free)).unwrap_or_default()
     }
 
     pub(crate) fn moment_of(&self, group: &ProbeGroup) -> Moment {

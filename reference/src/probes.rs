@@ -159,6 +159,23 @@ impl ProbeSet {
         (places, Self { seed: self.seed, groups, probes, twins: 0 })
     }
 
+    /// The first so many probes of each group.
+    pub(crate) fn thinned(&self, count: usize) -> Self {
+        let own = (0..self.groups.len()).flat_map(|group| self.of_group(group).iter().take(count));
+        Self { probes: own.cloned().collect(), ..self.clone() }
+    }
+
+    /// The probes of several sets, each with its own groups, to be run at once.
+    pub(crate) fn joined(sets: impl Iterator<Item = Self>) -> Self {
+        let mut joined = Self { seed: 0, groups: Vec::new(), probes: Vec::new(), twins: 0 };
+        for set in sets {
+            let before = joined.groups.len();
+            joined.groups.extend(set.groups);
+            joined.probes.extend(set.probes.into_iter().map(|probe| Probe { group: before + probe.group, ..probe }));
+        }
+        joined
+    }
+
     /// The probes of one group.
     pub fn of_group(&self, group: usize) -> &[Probe] {
         let each = self.probes.len() / self.groups.len().max(1);
