@@ -47,7 +47,9 @@ impl Extended {
         let own = extended.fixed.first().map(|fixed| (fixed.stage, fixed.text.as_str()));
         let note = |taken: &RecognisedUniform<'_>| {
             let note = taken.as_what.note.as_ref()?;
-            Some((taken.name.clone(), taken.as_what.id.clone(), Text::new(&*note.en, &*note.ja)))
+            let name = &taken.name;
+            let said = Text::new(format!("`{name}`: {}", note.en), format!("`{name}`: {}", note.ja));
+            Some((name.clone(), taken.as_what.id.clone(), said))
         };
         Ok(Some(Self {
             program: HomeworkProgram::new(LinkedInterface::of(&extended)?, own)?,
