@@ -2,6 +2,7 @@
 
 mod search;
 mod spared;
+mod unexplained;
 mod worth;
 
 use super::constants::ChangedConstant;
@@ -13,9 +14,10 @@ use crate::render::Sample;
 use crate::report::Hypothesis;
 use glam::DVec3;
 use reference::Assignment;
+use reference::assignment::RubricLine;
 use reference::derived::{definition, is_derived};
 use reference::equation::{DISCARDED, Reads};
-use reference::fit::{FeatureExplanation, TermJudgement, judge_terms};
+use reference::fit::{Alternatives, FeatureExplanation, TermJudgement, judge_features, judge_terms};
 use reference::mistake::{FoundMistake, Mistake};
 
 pub(super) use search::cause;
@@ -77,9 +79,7 @@ impl Cause {
     pub(super) fn unless_refuted(self, evidence: &Evidence<'_>) -> Self {
         match self {
             _ if !self.is_refuted(evidence) => self,
-            _ if let Some(listed) = Listed::of(evidence) => {
-                Self::Unexplained { terms: listed.terms(evidence), findings: Vec::new() }
-            }
+            _ if let Some(listed) = Listed::of(evidence) => Self::Unexplained { terms: listed.terms(evidence), findings: Vec::new() },
             Self::Known { .. } | Self::NearlyRight if addends::is_computed(evidence) => {
                 let samples: Vec<[f64; 3]> = evidence.samples.iter().map(Sample::colour_f64).collect();
                 let Evidence { assignment, probes, .. } = *evidence;
@@ -132,6 +132,17 @@ impl Cause {
         let mut definitions = found.iter().filter_map(|found| definition(&found.id));
         evidence.assignment.equation.reads() == Reads::Outputs
             && definitions.any(|name| inside::computes(evidence, name))
+    }
+
+    /// Whether it is a derived mistake in what several lines of the rubric go into: the sum without two of its terms is two mistakes.
+    fn is_of_several_terms(&self, assignment: &Assignment) -> bool {
+        let Self::Known { found, .. } = self else { return false };
+        let equation = &assignment.equation;
+        let place = |name: &str| equation.index(name);
+        let goes_into = |of| {
+            assignment.rubric.iter().filter_map(|line| place(&line.judges)).filter(move |on| equation.depends(of, *on))
+        };
+        found.iter().filter_map(|found| place(definition(&found.id)?)).any(|of| goes_into(of).nth(1).is_some())
     }
 
     /// Whether the homework says what it is worth.

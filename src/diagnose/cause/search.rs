@@ -1,23 +1,19 @@
-//! How a cause is found: known mistakes first, then the parts of the solution, then the text itself.
+//! How a cause is found: known mistakes first, and then what nobody wrote down.
 
+use super::unexplained::{alone, unexplained};
 use super::{Cause, HARD_CODED, NEARLY, spared, with_constants, worth};
 use crate::compare::{COLOUR_TOLERANCE, POSITION_TOLERANCE, position_difference};
 use crate::diagnose::constants::{self, ChangedConstant};
 use crate::diagnose::inside::{self, Repaired};
 use crate::diagnose::listed::Listed;
-use crate::diagnose::locate::{self, TracedProbes};
 use crate::diagnose::{Evidence, addends, hard_coded, plain, position_scale};
 use crate::render::Sample;
 use crate::report::FrameResult;
 use glam::{DVec3, DVec4};
 use reference::Assignment;
 use reference::equation::{DISCARDED, Reads};
-use reference::fit::{
-    Alternatives, Fit, MOST_MISTAKES, TermJudgement, explain_derived, explain_parts, is_right, judge_factor,
-    judge_features, judge_terms, programs_of, programs_showing,
-};
+use reference::fit::{Alternatives, Fit, MOST_MISTAKES, is_right, judge_features, judge_terms, programs_showing};
 use reference::mistake::FoundMistake;
-use reference::probes::ProbeSet;
 
 /// So many mistakes are looked for at once before the text is looked into.
 const FEW: usize = MOST_MISTAKES - 1;
@@ -65,12 +61,12 @@ pub(in crate::diagnose) fn cause(evidence: &Evidence<'_>, shape: bool) -> Cause 
     let is_listed = assignment.files.iter().any(|file| file.program.is_some());
     let frames_agree = frames_agree && !is_listed;
     let shows_a_table = !is_listed && hard_coded::is_lookup(evidence.source, probes, evidence.samples);
-    let by_term = || {
+    let by_term = |begun| {
         let terms = judge_terms(assignment, probes, &samples, COLOUR_TOLERANCE);
-        unexplained(evidence, &alternatives, &samples, terms)
+        unexplained(evidence, &alternatives, &samples, terms, begun)
     };
     if shows_a_table && addends::is_finite_nowhere(evidence) {
-        return by_term();
+        return by_term(None);
     }
     let is_lookup = shows_a_table && !addends::is_computed(evidence);
     // Without the normals the course's own poses can only be right if they are treated apart.
@@ -81,7 +77,20 @@ pub(in crate::diagnose) fn cause(evidence: &Evidence<'_>, shape: bool) -> Cause 
         let is_known = assignment.mistake(HARD_CODED).is_some() && assignment.equation.reads() == Reads::Outputs;
         is_known && !is_dark(evidence.samples) && inside::ignores_all(evidence)
     };
-    match plain::explained(1..=FEW, assignment, evidence.source, probes, &samples, COLOUR_TOLERANCE) {
+    let is_hard_coded = || is_lookup || is_made_for_the_poses() || is_made_of_nothing();
+    let explained = |counts| plain::explained(counts, assignment, evidence.source, probes, &samples, COLOUR_TOLERANCE);
+    let (mut fit, mut begun) = (explained(1..=1), None);
+    if matches!(fit, Fit::Unexplained(_)) {
+        // One change of the solution says more than two mistakes.
+        if !is_hard_coded() && !is_nearly_right() {
+            begun = match alone(evidence, &alternatives, &samples) {
+                Ok(cause) if !cause.is_of_several_terms(assignment) => return cause,
+                other => Some(other),
+            };
+        }
+        fit = explained(2..=FEW);
+    }
+    match fit {
         // What computes a right term has it multiplied by 0, or left out.
         Fit::Explained(found)
             if shows_a_table
@@ -91,19 +100,18 @@ pub(in crate::diagnose) fn cause(evidence: &Evidence<'_>, shape: bool) -> Cause 
             if is_lookup {
                 Cause::HardCoded
             } else {
-                by_term()
+                by_term(begun)
             }
         }
         // The course's own poses are treated apart from what explains all others.
         Fit::Explained(found) if frames_agree && hard_coded::leaves_nothing(assignment, &found) => Cause::HardCoded,
         // Some mistakes together come near to nearly anything.
         Fit::Explained(found) if found.len() > 1 && is_nearly_right() => Cause::NearlyRight,
-        Fit::Explained(found) if is_dark(evidence.samples) && stands_elsewhere(evidence, &found) => by_term(),
+        Fit::Explained(found) if is_dark(evidence.samples) && stands_elsewhere(evidence, &found) => by_term(begun),
         Fit::Explained(found) => Cause::known(found),
-        Fit::Unexplained(_) if is_lookup || is_made_for_the_poses() => Cause::HardCoded,
-        Fit::Unexplained(_) if is_made_of_nothing() => Cause::HardCoded,
+        Fit::Unexplained(_) if is_hard_coded() => Cause::HardCoded,
         Fit::Unexplained(_) if is_nearly_right() => Cause::NearlyRight,
-        Fit::Unexplained(terms) => unexplained(evidence, &alternatives, &samples, terms),
+        Fit::Unexplained(terms) => unexplained(evidence, &alternatives, &samples, terms, begun),
     }
 }
 
@@ -139,106 +147,11 @@ fn told_by_text(
     }
     let terms = judge_features(alternatives, samples, COLOUR_TOLERANCE);
     let terms = spared::by_outputs(evidence, spared::beside(evidence, terms, &findings));
-    (!is_little).then_some(Cause::Unexplained { terms, findings })
-}
-
-/// What no known mistake explains: by the features, or else each term as far as it stands alone, or shows by itself.
-fn unexplained(
-    evidence: &Evidence<'_>,
-    alternatives: &Alternatives<'_>,
-    samples: &[[f64; 3]],
-    mut terms: Vec<TermJudgement>,
-) -> Cause {
-    let Evidence { assignment, probes, .. } = *evidence;
-    if let Some(listed) = Listed::of(evidence) {
-        return Cause::Unexplained { terms: listed.terms(evidence), findings: Vec::new() };
-    }
-    let parts = match explain_parts(alternatives, samples, &is_there(evidence), COLOUR_TOLERANCE) {
-        Some(parts) if parts.found.is_empty() && parts.is_missing() => return Cause::Parts(parts),
-        parts => parts,
-    };
-    // What a lecturer wrote down says more than that a feature is missing.
-    let numbers = evidence.numbers();
-    let pair = match programs_of(alternatives, samples, &numbers, &is_there(evidence), COLOUR_TOLERANCE) {
-        Some(found) if found.len() == 1 => return Cause::known(found),
-        found => found,
-    };
-    let parts = match parts {
-        Some(parts) if parts.found.is_empty() && pair.is_none() => return Cause::Parts(parts),
-        parts => parts,
-    };
-    // What the text itself becomes right by says more than a change of the solution that the text does not bear out. One change says
-    // more than two mistakes.
-    let is_dark = is_dark(evidence.samples);
-    let alone = (!is_dark).then(|| derived(1, evidence, samples)).flatten();
-    let doubtful = match alone {
-        Some(cause) if !cause.is_contradicted(evidence) => return cause,
-        doubtful => doubtful,
-    };
-    if let Some(cause) = pair.map(Cause::known).or(parts.map(Cause::Parts)) {
-        return cause;
-    }
-    // What one change of the text does not mend, several mistakes may explain, and then two changes.
-    let several = || several(evidence, samples, is_dark);
-    let mut sought = doubtful.map(Some);
-    let (findings, repairs) = inside::account(evidence, &mut || sought.get_or_insert_with(several).is_none());
-    if repairs.is_empty()
-        && let Some(cause) = sought.get_or_insert_with(several).take()
-    {
-        return cause;
-    }
-    let terms = match judge_factor(assignment, probes, samples, COLOUR_TOLERANCE) {
-        Some(terms) => terms,
-        None => {
-            for feature in judge_features(alternatives, samples, COLOUR_TOLERANCE) {
-                terms.retain(|term| term.line != feature.line);
-                terms.push(feature);
-            }
-            spared::by_outputs(evidence, spared::beside(evidence, addends::credit(evidence, terms), &findings))
-        }
-    };
-    let wrong = if repairs.is_empty() { terms.clone() } else { spared::computed(evidence, terms.clone()) };
-    let repairs = repairs.into_iter().map(|repaired| (worth::charged(assignment, &wrong, &repaired), repaired));
-    let repairs: Vec<(Vec<String>, Repaired)> = repairs.collect();
-    if repairs.is_empty() || repairs.iter().any(|(lines, _)| lines.is_empty()) {
-        return sought.unwrap_or_else(several).unwrap_or(Cause::Unexplained { terms, findings });
-    }
-    Cause::Repaired(repairs)
-}
-
-/// Several mistakes at once that explain the samples: three that are written down, or two of which one is derived.
-fn several(evidence: &Evidence<'_>, samples: &[[f64; 3]], is_dark: bool) -> Option<Cause> {
-    let Evidence { assignment, probes, source, .. } = *evidence;
-    let counts = MOST_MISTAKES..=MOST_MISTAKES;
-    match plain::explained(counts, assignment, source, probes, samples, COLOUR_TOLERANCE) {
-        Fit::Explained(found) if is_borne_out(evidence, &found) => Some(Cause::known(found)),
-        _ if is_dark => None,
-        _ => derived(2, evidence, samples).filter(|cause| !cause.is_contradicted(evidence)),
-    }
-}
-
-/// So many mistakes, one of them derived, that explain the samples, also those that nobody knows beforehand; perhaps on top of changed
-/// constants.
-fn derived(count: usize, evidence: &Evidence<'_>, samples: &[[f64; 3]]) -> Option<Cause> {
-    let constants = constants::changed(evidence.source, evidence.assignment);
-    let explained = |assignment: &Assignment, probes: &ProbeSet, constants: Vec<ChangedConstant>| {
-        let found = explain_derived(count, assignment, probes, samples, &is_there(evidence), COLOUR_TOLERANCE)?;
-        let is_borne_out = plain::is_borne_out(assignment, evidence.source, &found);
-        let spared = spared::by_text(evidence, &found);
-        let cause = Cause::Known { constants, found, spared };
-        (is_borne_out && !cause.is_refuted(evidence)).then_some(cause)
-    };
-    if let Some(changed) = with_constants(evidence.assignment, &constants).filter(|_| !constants.is_empty()) {
-        let cause = explained(&changed, &changed.reprobe(evidence.probes), constants);
-        if cause.is_some() {
-            return cause;
-        }
-    }
-    explained(evidence.assignment, evidence.probes, Vec::new())
+    (!is_little).then_some(Cause::unexplained(terms, findings))
 }
 
 /// Whether a sample has a given position, but for the factor that all have in common where they are right.
-fn is_there<'e>(evidence: &'e Evidence<'_>) -> impl Fn(usize, DVec4) -> bool + 'e {
+pub(super) fn is_there<'e>(evidence: &'e Evidence<'_>) -> impl Fn(usize, DVec4) -> bool + 'e {
     let scale = position_scale(evidence);
     move |place, position| {
         let sample = evidence.samples.get(place);
@@ -247,23 +160,8 @@ fn is_there<'e>(evidence: &'e Evidence<'_>) -> impl Fn(usize, DVec4) -> bool + '
     }
 }
 
-/// Whether the text has a place for each of these mistakes, another one for those that touch the same lines of the rubric. So
-/// many mistakes together explain much by chance.
-fn is_borne_out(evidence: &Evidence<'_>, found: &[FoundMistake]) -> bool {
-    let assignment = evidence.assignment;
-    let mut points = TracedProbes::new(evidence, assignment);
-    if points.is_none() {
-        return true;
-    }
-    let known = locate::KnownPlaces::default();
-    let mut line = |index: usize| Some(locate::mistake(evidence, assignment, &mut points, found, index, known)?.line);
-    let places: Vec<_> = (0..found.len()).map(&mut line).collect();
-    let clash = |a: usize, b: usize| assignment.share_a_line(&found[a], &found[b]) && places[a] == places[b];
-    places.iter().all(Option::is_some) && !(0..found.len()).any(|b| (0..b).any(|a| clash(a, b)))
-}
-
 /// Whether all that is drawn is black, or no number: then the colours say little of the cause.
-fn is_dark(samples: &[Sample]) -> bool {
+pub(super) fn is_dark(samples: &[Sample]) -> bool {
     let is_drawn = |colour: &[f64; 3]| DVec3::from(*colour) != DISCARDED;
     let mut drawn = samples.iter().map(Sample::colour_f64).filter(is_drawn).peekable();
     drawn.peek().is_some() && drawn.flatten().all(|channel| channel == 0.0 || channel.is_nan())

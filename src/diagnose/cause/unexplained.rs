@@ -1,0 +1,151 @@
+//! What no known mistake explains alone: the parts of the solution, changes of it, and then the text itself.
+
+use super::search::{is_dark, is_there};
+use super::{Cause, spared, with_constants, worth};
+use crate::compare::COLOUR_TOLERANCE;
+use crate::diagnose::constants::{self, ChangedConstant};
+use crate::diagnose::inside::{self, Repaired};
+use crate::diagnose::listed::Listed;
+use crate::diagnose::locate::{self, TracedProbes};
+use crate::diagnose::{Evidence, addends, plain};
+use reference::Assignment;
+use reference::fit::{
+    Alternatives, FeatureExplanation, Fit, MOST_MISTAKES, TermJudgement, explain_derived, explain_parts, judge_factor,
+    judge_features, programs_of,
+};
+use reference::mistake::FoundMistake;
+use reference::probes::ProbeSet;
+
+/// What else may be the cause where no single one explains everything.
+pub(super) struct Others {
+    /// Features that are missing or scaled, perhaps with a known mistake.
+    parts: Option<FeatureExplanation>,
+    /// Two known mistakes.
+    pair: Option<Vec<FoundMistake>>,
+    /// A derived mistake that the text does not bear out.
+    doubtful: Option<Cause>,
+}
+
+/// The one mistake that nobody wrote down, or the one feature that is missing, by which all is explained.
+pub(super) fn alone(
+    evidence: &Evidence<'_>,
+    alternatives: &Alternatives<'_>,
+    samples: &[[f64; 3]],
+) -> Result<Cause, Box<Others>> {
+    if let Some(listed) = Listed::of(evidence) {
+        return Ok(Cause::Unexplained { terms: listed.terms(evidence), findings: Vec::new() });
+    }
+    let parts = match explain_parts(alternatives, samples, &is_there(evidence), COLOUR_TOLERANCE) {
+        Some(parts) if parts.found.is_empty() && parts.is_missing() => return Ok(Cause::Parts(parts)),
+        parts => parts,
+    };
+    // What a lecturer wrote down says more than that a feature is missing.
+    let numbers = evidence.numbers();
+    let pair = match programs_of(alternatives, samples, &numbers, &is_there(evidence), COLOUR_TOLERANCE) {
+        Some(found) if found.len() == 1 => return Ok(Cause::known(found)),
+        found => found,
+    };
+    let parts = match parts {
+        Some(parts) if parts.found.is_empty() && pair.is_none() => return Ok(Cause::Parts(parts)),
+        parts => parts,
+    };
+    // What the text itself becomes right by says more than a change of the solution that the text does not bear out.
+    let alone = (!is_dark(evidence.samples)).then(|| derived(1, evidence, samples)).flatten();
+    match alone {
+        Some(cause) if !cause.is_contradicted(evidence) => Ok(cause),
+        doubtful => Err(Box::new(Others { parts, pair, doubtful })),
+    }
+}
+
+/// What no known mistake explains: by the features, or else each term as far as it stands alone, or shows by itself. `begun`: what
+/// [`alone`] gave, where it was asked already.
+pub(super) fn unexplained(
+    evidence: &Evidence<'_>,
+    alternatives: &Alternatives<'_>,
+    samples: &[[f64; 3]],
+    mut terms: Vec<TermJudgement>,
+    begun: Option<Result<Cause, Box<Others>>>,
+) -> Cause {
+    let Evidence { assignment, probes, .. } = *evidence;
+    let others = match begun.unwrap_or_else(|| alone(evidence, alternatives, samples)) {
+        Ok(cause) => return cause,
+        Err(others) => others,
+    };
+    let Others { parts, pair, doubtful } = *others;
+    let is_dark = is_dark(evidence.samples);
+    if let Some(cause) = pair.map(Cause::known).or(parts.map(Cause::Parts)) {
+        return cause;
+    }
+    // What one change of the text does not mend, several mistakes may explain, and then two changes.
+    let several = || several(evidence, samples, is_dark);
+    let mut sought = doubtful.map(Some);
+    let (findings, repairs) = inside::account(evidence, &mut || sought.get_or_insert_with(several).is_none());
+    if repairs.is_empty()
+        && let Some(cause) = sought.get_or_insert_with(several).take()
+    {
+        return cause;
+    }
+    let terms = match judge_factor(assignment, probes, samples, COLOUR_TOLERANCE) {
+        Some(terms) => terms,
+        None => {
+            for feature in judge_features(alternatives, samples, COLOUR_TOLERANCE) {
+                terms.retain(|term| term.line != feature.line);
+                terms.push(feature);
+            }
+            spared::by_outputs(evidence, spared::beside(evidence, addends::credit(evidence, terms), &findings))
+        }
+    };
+    let wrong = if repairs.is_empty() { terms.clone() } else { spared::computed(evidence, terms.clone()) };
+    let repairs = repairs.into_iter().map(|repaired| (worth::charged(assignment, &wrong, &repaired), repaired));
+    let repairs: Vec<(Vec<String>, Repaired)> = repairs.collect();
+    if repairs.is_empty() || repairs.iter().any(|(lines, _)| lines.is_empty()) {
+        return sought.unwrap_or_else(several).unwrap_or(Cause::Unexplained { terms, findings });
+    }
+    Cause::Repaired(repairs)
+}
+
+/// Several mistakes at once that explain the samples: three that are written down, or two of which one is derived.
+fn several(evidence: &Evidence<'_>, samples: &[[f64; 3]], is_dark: bool) -> Option<Cause> {
+    let Evidence { assignment, probes, source, .. } = *evidence;
+    let counts = MOST_MISTAKES..=MOST_MISTAKES;
+    match plain::explained(counts, assignment, source, probes, samples, COLOUR_TOLERANCE) {
+        Fit::Explained(found) if is_borne_out(evidence, &found) => Some(Cause::known(found)),
+        _ if is_dark => None,
+        _ => derived(2, evidence, samples).filter(|cause| !cause.is_contradicted(evidence)),
+    }
+}
+
+/// So many mistakes, one of them derived, that explain the samples, also those that nobody knows beforehand; perhaps on top of changed
+/// constants.
+fn derived(count: usize, evidence: &Evidence<'_>, samples: &[[f64; 3]]) -> Option<Cause> {
+    let constants = constants::changed(evidence.source, evidence.assignment);
+    let explained = |assignment: &Assignment, probes: &ProbeSet, constants: Vec<ChangedConstant>| {
+        let found = explain_derived(count, assignment, probes, samples, &is_there(evidence), COLOUR_TOLERANCE)?;
+        let is_borne_out = plain::is_borne_out(assignment, evidence.source, &found);
+        let spared = spared::by_text(evidence, &found);
+        let cause = Cause::Known { constants, found, spared };
+        (is_borne_out && !cause.is_refuted(evidence)).then_some(cause)
+    };
+    if let Some(changed) = with_constants(evidence.assignment, &constants).filter(|_| !constants.is_empty()) {
+        let cause = explained(&changed, &changed.reprobe(evidence.probes), constants);
+        if cause.is_some() {
+            return cause;
+        }
+    }
+    explained(evidence.assignment, evidence.probes, Vec::new())
+}
+
+/// Whether the text has a place for each of these mistakes, another one for those that touch the same lines of the rubric. So
+/// many mistakes together explain much by chance.
+fn is_borne_out(evidence: &Evidence<'_>, found: &[FoundMistake]) -> bool {
+    let assignment = evidence.assignment;
+    let mut points = TracedProbes::new(evidence, assignment);
+    if points.is_none() {
+        return true;
+    }
+    let known = locate::KnownPlaces::default();
+    let mut line = |index: usize| Some(locate::mistake(evidence, assignment, &mut points, found, index, known)?.line);
+    let places: Vec<_> = (0..found.len()).map(&mut line).collect();
+    let clash = |a: usize, b: usize| assignment.share_a_line(&found[a], &found[b]) && places[a] == places[b];
+    places.iter().all(Option::is_some) && !(0..found.len()).any(|b| (0..b).any(|a| clash(a, b)))
+}
