@@ -67,6 +67,11 @@ impl Listed {
         Some(Self { wrong: wrong.collect() })
     }
 
+    /// Whether any number is wrong.
+    pub fn is_wrong(&self) -> bool {
+        !self.wrong.is_empty()
+    }
+
     /// The lines of the rubric whose numbers are all right, and the others.
     pub fn terms(&self, evidence: &Evidence<'_>) -> Vec<TermJudgement> {
         let judged = evidence.samples.len();

@@ -46,6 +46,10 @@ pub(in crate::diagnose) fn cause(evidence: &Evidence<'_>, shape: bool) -> Cause 
         // Right at every probe and in place, but not in the frames: the course's own poses are treated apart.
         return match assignment.equation.reads() {
             _ if frames_agree || !shape => Cause::Right,
+            // A number that is hardly off shows in a picture all the same.
+            _ if let Some(listed) = Listed::of(evidence).filter(Listed::is_wrong) => {
+                Cause::Unexplained { terms: listed.terms(evidence), findings: Vec::new() }
+            }
             // What the last digits decide is not judged.
             Reads::Attributes if hard_coded::are_at_steps(assignment, evidence.frames) => Cause::Right,
             Reads::Attributes => Cause::HardCoded,
