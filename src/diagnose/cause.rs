@@ -31,6 +31,7 @@ pub(super) const NEARLY_RIGHT: &str = "nearly-right";
 pub(super) const NOTHING_DRAWN: &str = "nothing-drawn";
 pub(super) const PART_MISSING: &str = "part-missing";
 pub(super) const PART_SCALED: &str = "part-scaled";
+pub(super) const PART_ABSENT: &str = "part-absent";
 
 /// Colours that are off by no more than this everywhere are nearly right: each of three terms is off by one step of 8 bits.
 ///
@@ -57,10 +58,14 @@ pub(super) enum Cause {
     NearlyRight,
     /// Nothing known explains it, and these changes of the text make it right; the ids of the lines that each one costs points.
     Repaired(Vec<(Vec<String>, Repaired)>),
-    /// Nothing known explains it; each term as far as it stands alone, and where in the text the mistakes stand.
+    /// Nothing known explains it.
     Unexplained {
+        /// Each term as far as it stands alone.
         terms: Vec<TermJudgement>,
+        /// Where in the text the mistakes stand.
         findings: Vec<Finding>,
+        /// Ids of the lines of which nothing is seen, see [`inside::absent_lines`].
+        absent: Vec<String>,
     },
 }
 
@@ -75,17 +80,21 @@ impl Cause {
         Self::Known { constants: Vec::new(), found, spared: Vec::new() }
     }
 
+    fn unexplained(terms: Vec<TermJudgement>, findings: Vec<Finding>) -> Self {
+        Self::Unexplained { terms, findings, absent: Vec::new() }
+    }
+
     /// The cause; a lookup where the shader does something else at probes that nobody knows beforehand.
     pub(super) fn unless_refuted(self, evidence: &Evidence<'_>) -> Self {
         match self {
             _ if !self.is_refuted(evidence) => self,
-            _ if let Some(listed) = Listed::of(evidence) => Self::Unexplained { terms: listed.terms(evidence), findings: Vec::new() },
+            _ if let Some(listed) = Listed::of(evidence) => Self::unexplained(listed.terms(evidence), Vec::new()),
             Self::Known { .. } | Self::NearlyRight if addends::is_computed(evidence) => {
                 let samples: Vec<[f64; 3]> = evidence.samples.iter().map(Sample::colour_f64).collect();
                 let Evidence { assignment, probes, .. } = *evidence;
                 let terms = judge_terms(assignment, probes, &samples, COLOUR_TOLERANCE);
                 let findings = inside::find(evidence);
-                Self::Unexplained { terms, findings }
+                Self::unexplained(terms, findings)
             }
             _ => Self::HardCoded,
         }
@@ -122,8 +131,39 @@ impl Cause {
             _ if !is_all_gone || is_right || self.is_written() => self,
             Some(_) => Self::NothingDrawn,
             // Nothing is ever written.
-            None => Self::Unexplained { terms: Vec::new(), findings: Vec::new() },
+            None => Self::unexplained(Vec::new(), Vec::new()),
         }
+    }
+
+    /// The cause, or that parts of a right answer are not there at all: a mistake that makes nothing of them would show the same, and
+    /// leave them their points.
+    pub(super) fn unless_absent(self, evidence: &Evidence<'_>, shape: bool) -> Self {
+        let Evidence { assignment, probes, .. } = *evidence;
+        if !matches!(self, Self::Known { .. } | Self::Parts(_)) {
+            return self;
+        }
+        let ids = self.ids();
+        let left =
+            |line: &RubricLine| ids.iter().map(|id| kept(assignment, line, shape, &self, id)).fold(1.0, f64::min);
+        let samples: Vec<[f64; 3]> = evidence.samples.iter().map(Sample::colour_f64).collect();
+        let terms = || {
+            let mut terms = judge_terms(assignment, probes, &samples, COLOUR_TOLERANCE);
+            for feature in judge_features(&Alternatives::new(assignment, probes), &samples, COLOUR_TOLERANCE) {
+                terms.retain(|term| term.line != feature.line);
+                terms.push(feature);
+            }
+            terms
+        };
+        let terms = std::cell::LazyCell::new(terms);
+        let is_right = |line: &str| terms.iter().any(|term| term.line == line && term.is_right());
+        let absent = inside::absent_lines(evidence, &is_right);
+        // What a mistake of the table leaves of a line that is not there is the lecturer's affair, but not all of it, nor of several.
+        let absent_lines = assignment.rubric.iter().filter(|line| absent.contains(&line.id));
+        if absent_lines.map(left).sum::<f64>() < 1.0 {
+            return self;
+        }
+        let terms = terms.clone();
+        Self::Unexplained { terms, findings: inside::find(evidence), absent }
     }
 
     /// Whether the text computes right what a derived mistake would have wrong, where only all together is seen.
@@ -208,7 +248,12 @@ impl Cause {
                 ids.dedup();
                 ids
             }
-            Self::Unexplained { .. } => vec![UNEXPLAINED.into()],
+            Self::Unexplained { absent, .. } if absent.is_empty() => vec![UNEXPLAINED.into()],
+            Self::Unexplained { terms, absent, .. } => {
+                let is_wrong = |term: &TermJudgement| !term.is_right() && !absent.contains(&term.line);
+                let others = terms.iter().any(is_wrong).then_some(UNEXPLAINED);
+                [PART_ABSENT].into_iter().chain(others).map(Into::into).collect()
+            }
         }
     }
 }

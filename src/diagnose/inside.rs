@@ -26,7 +26,7 @@ use super::locate::{Located, MistakeOrigin, is_handed_out};
 use super::trials::{FUEL_OF_TRACE, StageChanges, Trials, chosen, is_drawn, place};
 use crate::compare::POSITION_TOLERANCE;
 pub(super) use abrupt::decision;
-pub(super) use given::{ignores_all, looks_up};
+pub(super) use given::{absent_lines, ignores_all, looks_up};
 use glam::DVec3;
 pub(super) use own_values::own_values;
 use quantities::Quantities;

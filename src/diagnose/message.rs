@@ -4,7 +4,7 @@
 
 mod blanks;
 
-use super::cause::{NEARLY_RIGHT, PART_MISSING, PART_SCALED, UNEXPLAINED};
+use super::cause::{NEARLY_RIGHT, PART_ABSENT, PART_MISSING, PART_SCALED, UNEXPLAINED};
 use super::constants::ChangedConstant;
 use super::inside::{self, Finding};
 use super::listed::Listed;
@@ -110,7 +110,7 @@ fn with_file(text: &Text, line: u32, file: &str) -> Text {
 
 /// Whether a mistake is only known by what is seen, so that its texts say nothing of the place.
 fn is_general(id: &str) -> bool {
-    [UNEXPLAINED, PART_MISSING, PART_SCALED, NEARLY_RIGHT].contains(&id)
+    [UNEXPLAINED, PART_MISSING, PART_ABSENT, PART_SCALED, NEARLY_RIGHT].contains(&id)
 }
 
 /// What the messages may say of the student's text, because it was looked up there.

@@ -48,13 +48,13 @@ pub(in crate::diagnose) fn cause(evidence: &Evidence<'_>, shape: bool) -> Cause 
             _ if frames_agree || !shape => Cause::Right,
             // A number that is hardly off shows in a picture all the same.
             _ if let Some(listed) = Listed::of(evidence).filter(Listed::is_wrong) => {
-                Cause::Unexplained { terms: listed.terms(evidence), findings: Vec::new() }
+                Cause::unexplained(listed.terms(evidence), Vec::new())
             }
             // What the last digits decide is not judged.
             Reads::Attributes if hard_coded::are_at_steps(assignment, evidence.frames) => Cause::Right,
             Reads::Attributes => Cause::HardCoded,
             // Not all that a fragment stage reads is probed.
-            Reads::Varyings | Reads::Outputs => Cause::Unexplained { terms: Vec::new(), findings: Vec::new() },
+            Reads::Varyings | Reads::Outputs => Cause::unexplained(Vec::new(), Vec::new()),
         };
     }
     let constants = constants::changed(evidence.source, assignment);

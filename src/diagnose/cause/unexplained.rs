@@ -33,7 +33,7 @@ pub(super) fn alone(
     samples: &[[f64; 3]],
 ) -> Result<Cause, Box<Others>> {
     if let Some(listed) = Listed::of(evidence) {
-        return Ok(Cause::Unexplained { terms: listed.terms(evidence), findings: Vec::new() });
+        return Ok(Cause::unexplained(listed.terms(evidence), Vec::new()));
     }
     let parts = match explain_parts(alternatives, samples, &is_there(evidence), COLOUR_TOLERANCE) {
         Some(parts) if parts.found.is_empty() && parts.is_missing() => return Ok(Cause::Parts(parts)),
@@ -99,7 +99,7 @@ pub(super) fn unexplained(
     let repairs = repairs.into_iter().map(|repaired| (worth::charged(assignment, &wrong, &repaired), repaired));
     let repairs: Vec<(Vec<String>, Repaired)> = repairs.collect();
     if repairs.is_empty() || repairs.iter().any(|(lines, _)| lines.is_empty()) {
-        return sought.unwrap_or_else(several).unwrap_or(Cause::Unexplained { terms, findings });
+        return sought.unwrap_or_else(several).unwrap_or(Cause::unexplained(terms, findings));
     }
     Cause::Repaired(repairs)
 }

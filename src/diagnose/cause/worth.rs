@@ -1,6 +1,6 @@
 //! What a cause leaves of each line's points.
 
-use super::{Cause, PART_MISSING, PART_SCALED, UNEXPLAINED};
+use super::{Cause, PART_ABSENT, PART_MISSING, PART_SCALED, UNEXPLAINED};
 use crate::diagnose::inside::Repaired;
 use crate::diagnose::{CONSTANTS_CHANGED, POSITION_CHANGED};
 use reference::Assignment;
@@ -21,6 +21,8 @@ pub(super) const fn part_id(part: FeatureDefect) -> &'static str {
 pub fn kept(assignment: &Assignment, line: &RubricLine, shape: bool, cause: &Cause, id: &str) -> f64 {
     let is_touched = match (cause, id) {
         (_, POSITION_CHANGED) => !shape && assignment.judges_position(line),
+        (Cause::Unexplained { absent, .. }, PART_ABSENT) => absent.contains(&line.id),
+        (Cause::Unexplained { absent, .. }, _) if absent.contains(&line.id) => false,
         // What cannot be judged by itself is not known to be right.
         (Cause::Unexplained { terms, .. }, UNEXPLAINED) => terms
             .iter()

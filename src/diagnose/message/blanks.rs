@@ -61,7 +61,7 @@ impl<'f> Blanks<'f> {
             {
                 blanks.is_at(evidence, evidence.source, line);
             }
-            (Cause::Unexplained { terms, .. }, _) => {
+            (Cause::Unexplained { terms, absent, .. }, _) if !absent.contains(&line.id) => {
                 let worst = terms.iter().find(|term| term.line == line.id).and_then(|term| term.worst);
                 let throws_away = evidence.source.words().any(|(_, word)| word == "discard");
                 blanks.worst(worst, throws_away);
@@ -77,7 +77,7 @@ impl<'f> Blanks<'f> {
                     blanks.values.push(("found", number(red)));
                 }
             }
-            (Cause::Parts(_), _) => {}
+            (Cause::Parts(_) | Cause::Unexplained { .. }, _) => {}
             (Cause::NothingDrawn, _) => {
                 let source = evidence.source_that_discards();
                 if let Some((source, line)) = source.and_then(|source| Some((source, first_use(source, &["discard"])?)))
