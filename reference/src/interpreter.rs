@@ -143,6 +143,11 @@ pub fn expression(text: &str) -> Result<(), Refusal> {
     parse::parse_expression(&preprocessed.tokens, HashSet::new()).map(drop)
 }
 
+/// The variable that a path begins with, such as `lights` of `lights[1].colour`.
+pub fn root(path: &str) -> &str {
+    path.split(['.', '[']).next().unwrap_or(path)
+}
+
 /// The word that throws a fragment away.
 pub const DISCARD: &str = "discard";
 

@@ -17,10 +17,11 @@ use reference::Assignment;
 use reference::assignment::RubricLine;
 use reference::derived::{definition, is_derived};
 use reference::equation::{DISCARDED, Reads};
-use reference::fit::{Alternatives, FeatureExplanation, TermJudgement, judge_features, judge_terms};
+use reference::fit::{Alternatives, FeatureExplanation, TermJudgement, judge_terms};
 use reference::mistake::{FoundMistake, Mistake};
 
 pub(super) use search::cause;
+use unexplained::with_features;
 pub use worth::{belongs, kept};
 
 const HARD_CODED: &str = "hard-coded";
@@ -147,12 +148,8 @@ impl Cause {
             |line: &RubricLine| ids.iter().map(|id| kept(assignment, line, shape, &self, id)).fold(1.0, f64::min);
         let samples: Vec<[f64; 3]> = evidence.samples.iter().map(Sample::colour_f64).collect();
         let terms = || {
-            let mut terms = judge_terms(assignment, probes, &samples, COLOUR_TOLERANCE);
-            for feature in judge_features(&Alternatives::new(assignment, probes), &samples, COLOUR_TOLERANCE) {
-                terms.retain(|term| term.line != feature.line);
-                terms.push(feature);
-            }
-            terms
+            let terms = judge_terms(assignment, probes, &samples, COLOUR_TOLERANCE);
+            with_features(&Alternatives::new(assignment, probes), &samples, terms)
         };
         let terms = std::cell::LazyCell::new(terms);
         let is_right = |line: &str| terms.iter().any(|term| term.line == line && term.is_right());

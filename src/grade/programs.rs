@@ -15,7 +15,7 @@ use crate::source::{self, Source};
 use crate::translate::{self, HomeworkProgram, Linked, LinkedInterface, ProgramRefusal, Stage, TranslationRefusal};
 use reference::Assignment;
 use reference::equation::{DISCARDED, Reads};
-use reference::interpreter::ProgramVariable;
+use reference::interpreter::{ProgramVariable, root};
 use reference::probes::ProbeSet;
 
 /// The program of a homework, as far as it is not handed in.
@@ -190,11 +190,6 @@ fn overlooked(assignment: &Assignment, sources: &[(Stage, &Source)], linked: &Li
         found.push(Diagnostic::warning(Speaker::Run, message));
     }
     found
-}
-
-/// The variable that a path begins with.
-fn root(path: &str) -> &str {
-    path.split(['.', '[']).next().unwrap_or_default()
 }
 
 fn no_program() -> Fault {

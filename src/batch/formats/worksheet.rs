@@ -70,7 +70,7 @@ pub fn recipients<'a>(class: &'a Class, worksheet: &[u8]) -> Result<Vec<Recipien
 
 /// Somebody whom a worksheet lists.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Listed {
+pub struct ListedParticipant {
     /// The full name, or what Moodle puts for it, with what the university knows them by beside it.
     pub known_as: String,
     /// How a download would name them where they hand in alone.
@@ -78,7 +78,7 @@ pub struct Listed {
 }
 
 /// Whom a worksheet lists.
-pub fn listed(worksheet: &[u8]) -> Result<Vec<Listed>, Fault> {
+pub fn listed(worksheet: &[u8]) -> Result<Vec<ListedParticipant>, Fault> {
     let sheet = Worksheet::read(worksheet)?;
     let one = |row: &Vec<CsvCell>| {
         let WorksheetPerson { number, name, group, .. } = sheet.person(row)?.ok()?;
@@ -86,7 +86,7 @@ pub fn listed(worksheet: &[u8]) -> Result<Vec<Listed>, Fault> {
         let name = name.unwrap_or_else(|| BLIND[0].to_owned());
         let known_as = numbers.fold(name.clone(), |so_far, number| format!("{so_far} {number}"));
         let name = group.map_or(name.clone(), |group| format!("{group}-{name}"));
-        Some(Listed { known_as, participant: Participant { name, number: Some(number) } })
+        Some(ListedParticipant { known_as, participant: Participant { name, number: Some(number) } })
     };
     Ok(sheet.rows.iter().filter_map(one).collect())
 }

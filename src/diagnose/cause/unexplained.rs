@@ -63,7 +63,7 @@ pub(super) fn unexplained(
     evidence: &Evidence<'_>,
     alternatives: &Alternatives<'_>,
     samples: &[[f64; 3]],
-    mut terms: Vec<TermJudgement>,
+    terms: Vec<TermJudgement>,
     begun: Option<Result<Cause, Box<Others>>>,
 ) -> Cause {
     let Evidence { assignment, probes, .. } = *evidence;
@@ -88,10 +88,7 @@ pub(super) fn unexplained(
     let terms = match judge_factor(assignment, probes, samples, COLOUR_TOLERANCE) {
         Some(terms) => terms,
         None => {
-            for feature in judge_features(alternatives, samples, COLOUR_TOLERANCE) {
-                terms.retain(|term| term.line != feature.line);
-                terms.push(feature);
-            }
+            let terms = with_features(alternatives, samples, terms);
             spared::by_outputs(evidence, spared::beside(evidence, addends::credit(evidence, terms), &findings))
         }
     };
@@ -102,6 +99,19 @@ pub(super) fn unexplained(
         return sought.unwrap_or_else(several).unwrap_or(Cause::unexplained(terms, findings));
     }
     Cause::Repaired(repairs)
+}
+
+/// The judgements; of a line with a feature it is judged where that shows.
+pub(super) fn with_features(
+    alternatives: &Alternatives<'_>,
+    samples: &[[f64; 3]],
+    mut terms: Vec<TermJudgement>,
+) -> Vec<TermJudgement> {
+    for feature in judge_features(alternatives, samples, COLOUR_TOLERANCE) {
+        terms.retain(|term| term.line != feature.line);
+        terms.push(feature);
+    }
+    terms
 }
 
 /// Several mistakes at once that explain the samples: three that are written down, or two of which one is derived.

@@ -7,7 +7,7 @@ use crate::diagnose::columns::is_constant;
 use crate::diagnose::trials::{FUEL_OF_TRACE, StageChanges, chosen, place};
 use reference::assignment::RubricLine;
 use reference::interpreter::trace::{Event, Trace, What};
-use reference::interpreter::{Program, ProgramVariable, is_lookup};
+use reference::interpreter::{Program, ProgramVariable, is_lookup, root};
 use reference::pipeline::POSITION;
 use reference::traced::{Bench, Place, TracedProgram};
 use std::collections::BTreeSet;
@@ -48,7 +48,7 @@ pub(in crate::diagnose) fn absent_lines(evidence: &Evidence<'_>, is_right: &dyn 
     let Some(solution) = runs(evidence, &solution).map(|runs| (&solution, runs)) else { return Vec::new() };
     let stages = [Stage::Vertex, Stage::Fragment];
     let is_known =
-        |own: &ProgramVariable| assignment.interface.uniforms.iter().any(|known| base(&known.path) == base(&own.name));
+        |own: &ProgramVariable| assignment.interface.uniforms.iter().any(|known| root(&known.path) == root(&own.name));
     if !stages.iter().all(|stage| theirs.0.stage(*stage).uniforms().iter().all(is_known)) {
         return Vec::new();
     }
@@ -87,9 +87,7 @@ fn needed(evidence: &Evidence<'_>, solution: &Runs<'_>, number: usize) -> Option
         [] if assignment.equation.index(&line.judges) == Some(assignment.equation.colour()) => {
             let of_value = |(program, stage, site): &(TracedProgram, Stage, usize)| {
                 let runs = (program, runs(evidence, program)?);
-                let events = runs.1[*stage as usize].iter().flat_map(|trace| trace.events.iter().enumerate());
-                let own: Vec<usize> = events.filter(|(_, event)| event.site == *site).map(|(at, _)| at).collect();
-                Some(given_for(&runs, *stage, &own))
+                Some(given_for(&runs, *stage, &events_where(&runs, *stage, |event| event.site == *site)))
             };
             let [value, instead] = assignment.feature_values(number)?;
             let (names, instead) = (of_value(&value)?, of_value(&instead)?);
@@ -101,11 +99,6 @@ fn needed(evidence: &Evidence<'_>, solution: &Runs<'_>, number: usize) -> Option
     let stages = [Stage::Vertex, Stage::Fragment].into_iter();
     let names = stages.flat_map(|stage| given_for(solution, stage, &givers(solution, stage, names))).collect();
     Some(Needed { names, is_shared: false })
-}
-
-/// What of a program's name for a uniform is declared: all before a member or an index.
-fn base(path: &str) -> &str {
-    path.split(['.', '[']).next().unwrap_or(path)
 }
 
 /// What stands for a value that differs from place to place, and of which it is not known who gives it.
@@ -122,11 +115,16 @@ fn colours((program, traces): &Runs<'_>, stage: Stage) -> Vec<usize> {
 }
 
 /// The events that give variables of these names their values.
-fn givers((program, traces): &Runs<'_>, stage: Stage, names: &[String]) -> Vec<usize> {
-    let sites = program.stage(stage).sites();
+fn givers(runs: &Runs<'_>, stage: Stage, names: &[String]) -> Vec<usize> {
+    let sites = runs.0.stage(stage).sites();
     let is_giver = |event: &Event| matches!(&sites[event.site].what, What::Assign { name, .. } if names.contains(name));
+    events_where(runs, stage, is_giver)
+}
+
+/// The events of a stage for which this holds.
+fn events_where((_, traces): &Runs<'_>, stage: Stage, is_one: impl Fn(&Event) -> bool) -> Vec<usize> {
     let events = traces[stage as usize].iter().flat_map(|trace| trace.events.iter().enumerate());
-    events.filter(|(_, event)| is_giver(event)).map(|(number, _)| number).collect()
+    events.filter(|(_, event)| is_one(event)).map(|(number, _)| number).collect()
 }
 
 /// The attributes and uniforms that events of a stage are made of; lookups of a texture are one of them.
@@ -149,8 +147,8 @@ fn given_for(runs: &Runs<'_>, stage: Stage, events: &[usize]) -> BTreeSet<String
         match (handed_over, &traces[0]) {
             (Some(output), Some(vertex)) => given.extend(given_for(runs, Stage::Vertex, &vertex.outputs[output])),
             _ if own.inputs().iter().any(|input| input.written == *name) => _ = given.insert(name.clone()),
-            _ if let Some(own) = own.uniforms().iter().find(|own| base(&own.written) == base(name)) => {
-                given.insert(base(&own.name).to_owned());
+            _ if let Some(own) = own.uniforms().iter().find(|own| root(&own.written) == root(name)) => {
+                given.insert(root(&own.name).to_owned());
             }
             _ if is_constant(&event.values) => {}
             _ => _ = given.insert(UNKNOWN.into()),

@@ -1,7 +1,7 @@
 //! Who of the class the participants of Moodle's worksheet are.
 
 use crate::batch::class::{Participant, Student};
-use crate::batch::formats::worksheet::{Listed, listed};
+use crate::batch::formats::worksheet::{ListedParticipant, listed};
 use crate::service::State;
 use crate::service::errors::Problem;
 use crate::service::roster::Matcher;
@@ -19,7 +19,7 @@ pub(super) async fn participants(state: &State, sheet: &[u8]) -> Result<HashMap<
 }
 
 /// A participant as an archive would have them.
-fn entry(Listed { known_as, participant }: &Listed) -> Student {
+fn entry(ListedParticipant { known_as, participant }: &ListedParticipant) -> Student {
     Student {
         key: participant.number.unwrap_or_default().to_string(),
         name: known_as.clone(),
