@@ -18,6 +18,8 @@ mod own_values;
 mod parts;
 #[path = "cli/preview.rs"]
 mod preview;
+#[path = "cli/proposals.rs"]
+mod proposals;
 #[path = "cli/refusals.rs"]
 mod refusals;
 #[path = "cli/written.rs"]

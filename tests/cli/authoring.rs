@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
-fn solution(name: &str) -> PathBuf {
+pub fn solution(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/authoring").join(name)
 }
 
@@ -36,7 +36,7 @@ impl Written {
     }
 
     /// The homework is what the schema says, which lies beside it, and its own check finds nothing.
-    fn grades(&self) {
+    pub fn grades(&self) {
         let schema: serde_json::Value = serde_json::from_str(&self.text(".assignment.schema.json")).unwrap();
         let manifest: serde_json::Value = toml::from_str(&self.text("assignment.toml")).unwrap();
         jsonschema::validate(&schema, &manifest).unwrap();

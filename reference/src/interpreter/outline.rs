@@ -53,6 +53,8 @@ impl StatementText {
 /// A function with its body.
 #[derive(Clone, Debug)]
 pub struct FunctionText {
+    /// The last word of the type of its result.
+    pub result: Word,
     /// Its name.
     pub name: Word,
     /// The words between its brackets.
@@ -126,8 +128,10 @@ fn function(words: &[Word], open: usize, close: usize) -> Option<FunctionText> {
         }
         depth == 0
     })?;
-    let name = words[..bracket].last().filter(|name| name.is_name)?.clone();
+    let [.., result, name] = &words[..bracket] else { return None };
+    let name = Some(name).filter(|name| name.is_name)?.clone();
     Some(FunctionText {
+        result: result.clone(),
         name,
         parameters: words[bracket + 1..before].to_vec(),
         body: words[open].range.end..words[close].range.start,
@@ -192,6 +196,7 @@ mod tests {
         let found = functions(TEXT);
         let names: Vec<_> = found.iter().map(|function| function.name.text.as_str()).collect();
         assert_eq!(names, ["f", "main"]);
+        assert_eq!([&found[0].result.text, &found[1].result.text], ["float", "void"]);
         assert_eq!(found[0].parameters.iter().map(|word| word.text.as_str()).collect::<Vec<_>>(), ["in", "vec2", "p"]);
         assert_eq!(&TEXT[found[0].body.clone()], " return p.x; ");
         let texts: Vec<_> = found[1].statements.iter().map(|statement| &TEXT[statement.range()]).collect();

@@ -4,14 +4,16 @@
 //! place. Without marks the body of `main` is taken out, and the outputs get a plain value.
 
 mod plain;
+mod stand_in;
 
 use super::FolderPlan;
 use super::source::SolutionFile;
 use crate::assignment::AssignmentError;
-use crate::interpreter::outline;
-use crate::interpreter::{Program, Type};
+use crate::interpreter::Program;
+use crate::interpreter::outline::{self, FunctionText};
 use crate::text::{Text, both};
-use plain::{assigned, path_in, plain, written_parameters};
+use plain::{assigned, written_parameters};
+use stand_in::{StandIn, for_part};
 use std::ops::RangeInclusive;
 
 /// What begins a mark.
@@ -49,7 +51,7 @@ pub(super) fn cut(plan: &mut FolderPlan) -> Result<(), AssignmentError> {
 enum StarterRemark {
     Marks(usize),
     AsItIs,
-    Declared(String),
+    StandIn(StandIn),
     NoMarks,
     Left(Vec<String>),
 }
@@ -65,9 +67,17 @@ fn tell(plan: &mut FolderPlan, at: usize, told: StarterRemark) {
             format!("{starter}: has no marks, so that it is handed out as it is; the other file has marks"),
             format!("{starter}: 印がないため、そのまま配布されます (もう一方のファイルには印があります)"),
         ),
-        StarterRemark::Declared(what) => plan.guessed(
+        StarterRemark::StandIn(StandIn::Variable(what)) => plan.guessed(
             format!("{starter}: `{what}` stands for a variable that is used behind the part that was taken out"),
             format!("{starter}: 取り除いた部分より後で使われる変数の代わりに `{what}` を置きました"),
+        ),
+        StarterRemark::StandIn(StandIn::Output(what)) => plan.guessed(
+            format!("{starter}: `{what}` gives a value to what nothing but the part that was taken out writes"),
+            format!("{starter}: 取り除いた部分だけで値が決まる変数のために `{what}` を置きました"),
+        ),
+        StarterRemark::StandIn(StandIn::Result(what, function)) => plan.guessed(
+            format!("{starter}: `{what}` stands for the `return` of `{function}`, which was taken out"),
+            format!("{starter}: 取り除いた `{function}` の `return` の代わりに `{what}` を置きました"),
         ),
         StarterRemark::NoMarks => plan.guessed(
             format!(
@@ -119,12 +129,13 @@ fn between_marks(source: &SolutionFile) -> Result<(String, Vec<StarterRemark>), 
                 open = Some((first, indent, instead));
             }
             (Some(Ok(StarterMark::End)), Some((first, indent, instead))) => {
-                let declared = if instead.is_empty() { declared_in(source, first..=number) } else { Vec::new() };
-                let hint = if instead.is_empty() { Some(HINT.to_owned()) } else { None };
-                for text in hint.iter().chain(&declared).chain(&instead) {
+                let stand_ins = if instead.is_empty() { for_part(source, first..=number) } else { Vec::new() };
+                let hint = if instead.is_empty() { Some(HINT) } else { None };
+                let instead = instead.iter().map(String::as_str);
+                for text in hint.into_iter().chain(stand_ins.iter().map(StandIn::text)).chain(instead) {
                     starter += &format!("{indent}{text}\n");
                 }
-                told.extend(declared.into_iter().map(StarterRemark::Declared));
+                told.extend(stand_ins.into_iter().map(StarterRemark::StandIn));
                 removed.push(first..=number);
             }
             (Some(Ok(StarterMark::Begin)), Some((first, ..))) => {
@@ -168,45 +179,18 @@ fn between_marks(source: &SolutionFile) -> Result<(String, Vec<StarterRemark>), 
     Ok((starter, told))
 }
 
-/// Declarations for what the text behind a part uses of it, and plain values of outputs that nothing else writes.
-fn declared_in(source: &SolutionFile, lines: RangeInclusive<u32>) -> Vec<String> {
-    let words = source.words();
-    let is_behind = |name: &str| words.iter().any(|word| word.line > *lines.end() && word.text == name);
-    let declaration = |kind: &Type, name: &str| plain(kind, false).map(|value| format!("{kind} {name} = {value};"));
-    let locals = source.program.locals().iter().filter(|local| lines.contains(&local.line) && is_behind(&local.name));
-    let mut declared: Vec<String> = locals.filter_map(|local| declaration(&local.kind, &local.name)).collect();
-    let functions = outline::functions(&source.text);
-    let around = functions.iter().rfind(|function| function.name.line < *lines.start());
-    if around.is_none_or(|function| function.name.text != "main") {
-        return declared;
-    }
-    let is_written = |name: &str, inside: bool| {
-        let mut words =
-            functions.iter().flat_map(|function| &function.statements).flat_map(|statement| &statement.words);
-        words.any(|word| word.text == name && lines.contains(&word.line) == inside)
-    };
-    for output in source.program.outputs() {
-        let name = path_in(source, &output.name);
-        let name = name.split('.').next().unwrap_or(&name);
-        if is_written(name, true) && !is_written(name, false) {
-            declared.extend(assigned(source, &output.name, &output.kind));
-        }
-    }
-    declared
-}
-
 /// The solution with a body of its entry that gives every output a plain value.
 fn of_plain_values(source: &SolutionFile) -> (String, Vec<StarterRemark>) {
     let functions = outline::functions(&source.text);
     let Some(entry) = functions.iter().find(|function| function.name.text == source.entry) else {
         return (source.text.clone(), vec![StarterRemark::AsItIs]);
     };
-    let lines = match source.entry {
+    let lines: Vec<String> = match source.entry {
         "main" => {
             let outputs = source.program.outputs().iter();
             outputs.filter_map(|output| assigned(source, &output.name, &output.kind)).collect()
         }
-        _ => written_parameters(entry),
+        _ => written_parameters(entry).into_iter().map(|(_, text)| text).collect(),
     };
     let body: String =
         std::iter::once(HINT).chain(lines.iter().map(String::as_str)).map(|line| format!("    {line}\n")).collect();
@@ -226,22 +210,36 @@ fn of_plain_values(source: &SolutionFile) -> (String, Vec<StarterRemark>) {
 
 /// A starter has to be a whole shader.
 fn compiles(source: &SolutionFile, starter: &str) -> Result<(), AssignmentError> {
-    let Err(refusal) = Program::compile(starter, source.stage) else { return Ok(()) };
-    let line = starter.lines().nth((refusal.line as usize).saturating_sub(1)).unwrap_or_default().trim();
+    let (line, what, example) = match (Program::compile(starter, source.stage), without_return(starter)) {
+        (Err(refusal), _) => (refusal.line, refusal.what().clone(), "vec3 name = vec3(0.0);"),
+        (Ok(_), Some((line, what))) => (line, what, "return vec3(0.0);"),
+        (Ok(_), None) => return Ok(()),
+    };
+    let line = starter.lines().nth((line as usize).saturating_sub(1)).unwrap_or_default().trim();
     // The same line of the solution, where it is known to the lecturer.
     let same = source.text.lines().position(|own| own.trim() == line && !line.is_empty()).map_or(0, |at| at as u32 + 1);
-    let Text { en, ja } = refusal.what();
+    let Text { en, ja } = what;
     Err(source.wrong(
         same,
         both(
             format!(
                 "without what stands between the marks this does not compile: {en}. Write `{MARK} instead …` between the marks, with \
-                 what the starter has in their place, such as `{MARK} instead vec3 name = vec3(0.0);`"
+                 what the starter has in their place, such as `{MARK} instead {example}`"
             ),
             format!(
                 "印の間を取り除くとコンパイルできません: {ja}。配布ファイルに代わりに置く文を、印の間に `{MARK} instead …` と書いてください \
-                 (例: `{MARK} instead vec3 name = vec3(0.0);`)"
+                 (例: `{MARK} instead {example}`)"
             ),
         ),
     ))
+}
+
+/// A function with a result that has no `return`: the interpreter runs it, and compilers refuse it.
+fn without_return(starter: &str) -> Option<(u32, Text)> {
+    let functions = outline::functions(starter);
+    let returns = |function: &FunctionText| function.statements.iter().any(|own| own.words[0].text == "return");
+    let lacking = functions.iter().find(|function| function.result.text != "void" && !returns(function))?;
+    let name = &lacking.name;
+    let message = both(format!("`{}` has no `return`", name.text), format!("`{}` に `return` がありません", name.text));
+    Some((name.line, message))
 }

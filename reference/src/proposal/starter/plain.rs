@@ -61,13 +61,14 @@ pub(super) fn plain(kind: &Type, is_seen: bool) -> Option<String> {
     })
 }
 
-/// Plain values of the `out` parameters of a function.
-pub(super) fn written_parameters(function: &FunctionText) -> Vec<String> {
+/// The names of the `out` parameters of a function, each with the statement that gives it a plain value.
+pub(super) fn written_parameters(function: &FunctionText) -> Vec<(String, String)> {
     let each = function.parameters.split(|word| word.text == ",");
     let written = each.filter(|words| words.iter().any(|word| word.text == "out" || word.text == "inout"));
     let value = |words: &[outline::Word]| {
         let kind = words.iter().find_map(|word| Type::named(&word.text))?;
-        plain(&kind, true).map(|value| format!("{} = {value};", words.last().map_or("", |word| &word.text)))
+        let name = words.last()?.text.clone();
+        plain(&kind, true).map(|value| (name.clone(), format!("{name} = {value};")))
     };
     written.filter_map(value).collect()
 }

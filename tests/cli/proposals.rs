@@ -1,0 +1,37 @@
+//! What `ggrade assignment new` proposes: starters that run, values that show what they do, words that a lecturer keeps.
+
+use super::authoring::{Written, solution};
+use super::ggrade;
+use std::fs;
+
+#[test]
+fn marks_around_a_return_or_a_whole_body_leave_a_starter_that_runs() {
+    let written = Written::from(&["enclosed.frag"]);
+    written.grades();
+    let starter = written.text("starter.frag");
+    for kept in [
+        "    // Write your code here.\n    float near = 0.0;\n    return 1.0",
+        "vec3 shade(vec3 n) {\n    // Write your code here.\n    return vec3(0.0);\n}",
+        "    // Write your code here.\n    colour = vec3(0.5);\n}",
+        "    // Write your code here.\n    FragColor = vec4(0.5, 0.5, 0.5, 1.0);\n}",
+    ] {
+        assert!(starter.contains(kept), "{kept} in {starter}");
+    }
+    assert!(written.said.contains("`return vec3(0.0);` stands for the `return` of `shade`"), "{}", written.said);
+    // What is to stand in a place has to be said where a function would end without its result.
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("lacking.frag");
+    let text = fs::read_to_string(solution("enclosed.frag")).unwrap();
+    fs::write(&path, text.replacen("    vec3 toLight =", "    // ggrade: instead float d;\n    vec3 toLight =", 1))
+        .unwrap();
+    let mut command = ggrade();
+    command.args(["assignment", "new", "--lang", "en"]).arg(folder.path().join("homework")).arg("--from").arg(&path);
+    let refused = command.assert().code(2);
+    let said = String::from_utf8_lossy(&refused.get_output().stderr).into_owned();
+    assert!(
+        said.contains("line 13")
+            && said.contains("`shade` has no `return`")
+            && said.contains("instead return vec3(0.0);"),
+        "{said}"
+    );
+}
