@@ -35,3 +35,9 @@ fn marks_around_a_return_or_a_whole_body_leave_a_starter_that_runs() {
         "{said}"
     );
 }
+
+#[test]
+fn maps_of_one_kind_are_told_apart() {
+    let written = Written::from(&["kettle.frag"]);
+    written.tells("texture(material.metalnessMap, TexCoords)", "texture(material.roughnessMap, TexCoords)");
+}

@@ -1,7 +1,11 @@
 //! Pictures for samplers.
 
+mod another;
+
 use crate::interpreter::{Dimension, Sampler, Scalar};
 use crate::proposal::names::NameWords;
+use another::another;
+use std::collections::HashMap;
 
 /// An entry `[[texture]]`.
 #[derive(Clone, Debug, PartialEq)]
@@ -12,10 +16,11 @@ pub(in crate::proposal) struct TextureEntry {
     pub what: (&'static str, &'static str),
 }
 
-/// The textures so far: no two have one name.
+/// The textures so far: no two of them are alike, so that it shows when an answer swaps them.
 #[derive(Default)]
 pub(super) struct ProposedTextures {
-    names: Vec<String>,
+    /// How many textures have each picture of the tables, or another one made of it.
+    taken: HashMap<String, usize>,
     colourful: usize,
 }
 
@@ -126,7 +131,7 @@ impl ProposedTextures {
             return None;
         }
         let words = NameWords::of(path);
-        let (mut lines, what) = match (sampler.dimension, sampler.array) {
+        let (lines, what) = match (sampler.dimension, sampler.array) {
             (Dimension::Two, false) if is_whole => (owned(&[WHOLE[0], "size = [16, 12]"]), NUMBERS),
             (Dimension::Two, false) => self.flat(&words),
             (Dimension::Two, true) => {
@@ -151,11 +156,14 @@ impl ProposedTextures {
             }
             _ => return None,
         };
+        let nth = self.taken.entry(lines[0].clone()).or_default();
+        let mut lines: Vec<String> = lines.iter().map(|line| another(line, *nth)).collect();
+        *nth += 1;
         if is_whole {
             let format = if sampler.texel == Scalar::Int { "rgba32i" } else { "rgba32ui" };
             lines.push(format!("format = {format:?} # whole numbers"));
         }
-        Some(TextureEntry { name: self.name(path), lines, what })
+        Some(TextureEntry { name: name(path), lines, what })
     }
 
     /// A picture.
@@ -167,11 +175,9 @@ impl ProposedTextures {
         self.colourful += 1;
         (owned(lines), ("a picture of colours", "色の画像"))
     }
+}
 
-    fn name(&mut self, path: &str) -> String {
-        let plain: String = path.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '-' }).collect();
-        let plain = plain.replace("--", "-").trim_matches('-').to_owned();
-        self.names.push(plain.clone());
-        plain
-    }
+fn name(path: &str) -> String {
+    let plain: String = path.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '-' }).collect();
+    plain.replace("--", "-").trim_matches('-').to_owned()
 }
