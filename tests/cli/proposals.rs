@@ -41,3 +41,16 @@ fn maps_of_one_kind_are_told_apart() {
     let written = Written::from(&["kettle.frag"]);
     written.tells("texture(material.metalnessMap, TexCoords)", "texture(material.roughnessMap, TexCoords)");
 }
+
+#[test]
+fn lights_reach_the_scene_and_no_two_are_alike() {
+    let written = Written::from(&["lanterns.frag"]);
+    let manifest = written.text("assignment.toml");
+    for light in ["intensity = 2.0, color = [0.9, 0.6, 0.4], radius = 6.0", "intensity = 2.6,", "radius = 5.4"] {
+        assert!(manifest.contains(light), "{light} in {manifest}");
+    }
+    // Each light is seen, and so is where it ends.
+    for (from, to) in [("i < lightCount", "i < lightCount - 1"), ("falloff * falloff", "falloff")] {
+        assert_eq!(written.graded(&[(from, to)])["verdict"], "wrong", "{to}");
+    }
+}

@@ -68,6 +68,7 @@ const NUMBERS: &[NumberGuess] = &[
     (&["amplitude", "amp", "height", "displacement", "steepness"], 0.15, (0.05, 0.3), ("amplitude", "振幅")),
     (&["wavelength", "length"], 1.2, (0.6, 2.0), ("wavelength", "波長")),
     (&["speed", "velocity"], 1.0, (0.5, 2.0), ("speed", "速さ")),
+    (&["twist", "bend", "shear", "swirl", "curl"], 0.9, (-1.5, 1.5), ("deformation", "変形の強さ")),
     (&["phase", "angle", "rotation", "theta"], 0.6, (0.2, 1.4), ("angle in radians", "角 (ラジアン)")),
     (&["radius", "size"], 1.0, (0.6, 1.6), ("size", "大きさ")),
     (&["width", "thickness", "softness", "edge", "outline", "border"], 0.2, (0.1, 0.35), ("width", "幅")),
@@ -88,6 +89,33 @@ const NUMBERS: &[NumberGuess] = &[
     (&["max", "maximum"], 0.8, (0.6, 0.95), ("greatest value", "最大値")),
 ];
 
+/// The same where two words of a name say it together: one of the first and one of the second.
+type PairGuess = (&'static [&'static str], NumberGuess);
+
+const PAIRS: &[PairGuess] = &[
+    (
+        &["fresnel", "rim", "schlick", "edge", "falloff"],
+        (&["power", "exponent", "pow"], 4.0, (2.0, 8.0), ("exponent of an edge", "縁の指数")),
+    ),
+    (
+        &["noise", "uv", "tex", "texture", "detail", "pattern", "map"],
+        (&["scale", "size"], 1.7, (0.8, 2.5), ("scale of coordinates", "座標の倍率")),
+    ),
+    (
+        &["light", "lamp", "spot"],
+        (&["radius", "range", "reach"], 6.0, (4.0, 9.0), ("reach of a light", "光の届く距離")),
+    ),
+];
+
+/// What a light that becomes weaker with its distance reaches: further than the scene is wide.
+const REACH: NumberGuess = (&["radius", "range", "reach"], 6.0, (4.0, 9.0), ("reach of a light", "光の届く距離"));
+/// How strong such a light is, so that enough of it arrives.
+const STRONG: NumberGuess =
+    (&["intensity", "brightness", "strength", "power"], 2.0, (1.0, 4.0), ("strength of a light", "光の強さ"));
+
+/// Steps from the usual value towards its bounds, one for each number that is taken for the same, so that no two are alike.
+const STEPS: [f64; 6] = [0.0, 0.3, -0.3, 0.6, -0.6, 0.15];
+
 /// What an exponent usually is.
 pub(super) fn exponent() -> Guess {
     Guess { value: vec![16.0], within: Some((vec![4.0], vec![48.0])), what: ("exponent", "指数") }
@@ -98,16 +126,27 @@ pub(super) fn is_known(name: &NameWords) -> bool {
     row(name).is_some() || name.is_colour()
 }
 
-/// What a value of a type usually is. `nth`: how many of its kind were there before it; `is_downward`: it points away from
-/// where the light comes from.
-pub(super) fn guess(name: &NameWords, kind: &Type, nth: usize, is_downward: bool) -> Guess {
+/// What the solution says of a value beside its name and type.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Context {
+    /// How many values that were taken for the same were there before it.
+    pub nth: usize,
+    /// Whether it points away from where the light comes from.
+    pub is_downward: bool,
+    /// Whether it is of a light that becomes weaker up to a distance, where it ends.
+    pub falls_off: bool,
+}
+
+/// What a value of a type usually is.
+pub(super) fn guess(name: &NameWords, kind: &Type, context: Context) -> Guess {
+    let Context { nth, is_downward, falls_off } = context;
     let count = kind.slots().unwrap_or(0);
     match kind {
         Type::Vector(Scalar::Bool, _) => {
             Guess { value: vec![1.0; count], within: Some((vec![0.0], vec![1.0])), what: ("switch", "スイッチ") }
         }
         Type::Vector(Scalar::Int | Scalar::Uint, _) => whole(name, count),
-        Type::Vector(_, 1) => number(name),
+        Type::Vector(_, 1) => number(name, nth, falls_off),
         Type::Vector(_, _) => vector(name, count, nth, is_downward),
         Type::Matrix(_, columns, rows) => Guess {
             value: matrix(usize::from(*columns), usize::from(*rows), nth),
@@ -147,15 +186,27 @@ fn whole(name: &NameWords, count: usize) -> Guess {
     }
 }
 
-fn number(name: &NameWords) -> Guess {
+fn number(name: &NameWords, nth: usize, falls_off: bool) -> Guess {
     if name.is_colour() {
         return Guess { value: vec![0.5], within: Some((vec![0.2], vec![0.9])), what: ("share", "割合") };
     }
-    let (value, (least, greatest), what) = match row(name) {
+    let has = |known: &[&str]| name.has(known) || name.is(known);
+    let of_pair = || PAIRS.iter().find(|(first, (second, ..))| has(first) && has(second)).map(|(_, guess)| guess);
+    let of_light = || [&REACH, &STRONG].into_iter().find(|(words, ..)| falls_off && has(words));
+    let (value, (least, greatest), what) = match of_light().or_else(of_pair).or_else(|| row(name)) {
         Some((_, value, bounds, what)) => (*value, *bounds, *what),
         None => (0.5, (0.25, 1.0), ("number", "数")),
     };
+    let step = STEPS[nth % STEPS.len()];
+    let room = if step < 0.0 { value - least } else { greatest - value };
+    let value = two_digits(value + step * room);
     Guess { value: vec![value], within: Some((vec![least], vec![greatest])), what }
+}
+
+/// A number as a person writes it; one of a thousandth stays one.
+fn two_digits(number: f64) -> f64 {
+    let digits = if number.abs() < 0.1 { 1e3 } else { 1e2 };
+    (number * digits).round() / digits
 }
 
 fn vector(name: &NameWords, count: usize, nth: usize, is_downward: bool) -> Guess {
@@ -168,7 +219,8 @@ fn vector(name: &NameWords, count: usize, nth: usize, is_downward: bool) -> Gues
             }
             () => ([0.4, 0.3], [0.1, 0.1], [0.9, 0.9], ("pair of numbers", "数の組")),
         };
-        return Guess { value: value.to_vec(), within: Some((least.to_vec(), greatest.to_vec())), what };
+        let value = value.map(|number| two_digits(number * [1.0, 0.8, 1.1][nth % 3])).to_vec();
+        return Guess { value, within: Some((least.to_vec(), greatest.to_vec())), what };
     }
     if name.is_direction() && !name.is_colour() {
         let sign = if is_downward { -1.0 } else { 1.0 };
@@ -212,11 +264,12 @@ mod tests {
 
     #[test]
     fn a_guess_fits_its_type_and_its_bounds() {
-        let names = "shininess lightPos lightDir objectColor cutOff tones enabled foo steps kd offset";
+        let names = "intensity fresnelPower lightRadius uvScale twist shininess lightPos lightDir objectColor cutOff tones enabled foo steps kd offset";
         for kind in ["float", "vec2", "vec3", "vec4", "int", "uint", "bool", "mat3", "mat4"] {
             let kind = Type::named(kind).expect(kind);
             for (name, nth) in names.split(' ').zip(0..) {
-                let Guess { value, within, .. } = guess(&NameWords::of(name), &kind, nth, nth % 2 == 0);
+                let context = Context { nth, is_downward: nth % 2 == 0, falls_off: nth % 3 == 0 };
+                let Guess { value, within, .. } = guess(&NameWords::of(name), &kind, context);
                 assert_eq!(Some(value.len()), kind.slots(), "{name} {kind}");
                 let Some((least, greatest)) = within else { continue };
                 assert!(Bounds::new(&kind, &least, &greatest).is_some(), "{name} {kind}");
@@ -226,5 +279,18 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn numbers_of_one_kind_are_unlike_each_other_and_show_what_they_do() {
+        let value = |name: &str, nth: usize, falls_off: bool| {
+            guess(&NameWords::of(name), &Type::FLOAT, Context { nth, is_downward: false, falls_off }).value[0]
+        };
+        let intensities: Vec<f64> = (0..4).map(|nth| value("intensity", nth, true)).collect();
+        // From 2 by 3 and 6 tenths of the way to 4, and by 3 tenths of the way to 1.
+        assert_eq!(intensities, [2.0, 2.6, 1.7, 3.2]);
+        assert_eq!([value("radius", 0, true), value("lightRadius", 0, false)], [6.0, 6.0]);
+        assert_eq!([value("radius", 0, false), value("fresnelPower", 0, false)], [1.0, 4.0]);
+        assert_eq!([value("shininess", 0, false), value("noiseScale", 0, false)], [32.0, 1.7]);
     }
 }

@@ -7,7 +7,7 @@ mod tree;
 mod uses;
 
 use super::FolderPlan;
-use super::guess::{self, Guess, guess};
+use super::guess::{self, Context, Guess, guess};
 use super::names::{self, NameWords, Space};
 use super::shader_test::ShaderTest;
 use super::source::SolutionFile;
@@ -136,11 +136,12 @@ fn leaf(
             value: count.to_string(), probe, what: ("number of elements", "要素の数")
         });
     }
-    let is_downward = negated(source, &uniform.name);
+    let falls_off = uses::falls_off(source, &uniform.name);
+    let context = Context { nth: 0, is_downward: negated(source, &uniform.name), falls_off };
     let Guess { value, within, what } = {
-        let first = guess(&name, kind, 0, is_downward);
+        let first = guess(&name, kind, context);
         let nth = seen.entry(first.what.0).or_default();
-        let own = guess(&name, kind, *nth, is_downward);
+        let own = guess(&name, kind, Context { nth: *nth, ..context });
         *nth += 1;
         match kind {
             Type::Vector(Scalar::Int | Scalar::Uint, 1) if !guess::is_known(&name) => {
@@ -202,7 +203,7 @@ pub(super) fn entry_for(path: &str, kind: &Type, is_attribute: bool) -> String {
     }
     match by_role(path, &name, kind, Space::World) {
         Some(line) => line,
-        None => format!("value = {}", numbers(&guess(&name, kind, 0, false).value, kind)),
+        None => format!("value = {}", numbers(&guess(&name, kind, Context::default()).value, kind)),
     }
 }
 

@@ -4,7 +4,7 @@ use super::{AttributeEntry, numbers};
 use crate::assignment::AssignmentError;
 use crate::interpreter::{Scalar, Type};
 use crate::proposal::FolderPlan;
-use crate::proposal::guess::guess;
+use crate::proposal::guess::{Context, guess};
 use crate::proposal::names::{self, NameWords};
 use crate::proposal::shader_test::ShaderTest;
 use std::collections::BTreeMap;
@@ -80,7 +80,9 @@ fn in_turn(name: &str, kind: &Type, elements: Option<usize>) -> Vec<Vec<f64>> {
             const SHARES: [[f64; 4]; 3] = [[0.5, 0.3, 0.15, 0.05], [0.4, 0.1, 0.3, 0.2], [0.15, 0.45, 0.05, 0.35]];
             SHARES.iter().map(|shares| shares[..count].to_vec()).collect()
         }
-        _ => (0..3).map(|nth| guess(&NameWords::of("color"), kind, nth, false).value).collect(),
+        _ => (0..3)
+            .map(|nth| guess(&NameWords::of("color"), kind, Context { nth, ..Context::default() }).value)
+            .collect(),
     }
 }
 

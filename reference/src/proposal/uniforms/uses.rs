@@ -2,6 +2,7 @@
 
 use crate::interpreter::outline::Word;
 use crate::proposal::guess::Guess;
+use crate::proposal::names::NameWords;
 use crate::proposal::source::SolutionFile;
 
 /// What a whole number is compared with, in conditions and in the cases of a `switch`: each of these, and one more.
@@ -32,6 +33,16 @@ pub(super) fn cases(source: &SolutionFile, path: &str) -> Option<Guess> {
     let greatest = if (0..=greatest as u16).all(is_named) { greatest + 1.0 } else { greatest };
     let within = Some((vec![least], vec![greatest]));
     Some(Guess { value: vec![first], within, what: ("choice", "選択") })
+}
+
+/// Whether a uniform lies in a structure of a light that reaches so far and no further: `lights[1].radius`.
+pub(super) fn falls_off(source: &SolutionFile, path: &str) -> bool {
+    let around = |path: &str| path.rsplit_once('.').map(|(around, _)| around.to_owned());
+    let Some(own) = around(path) else { return false };
+    let is_light = NameWords::of(&own).has(&["light", "lights", "lamp", "lamps", "spot", "bulb", "bulbs"]);
+    let ends = |other: &str| NameWords::of(other).has(&["radius", "range", "reach"]);
+    is_light
+        && source.program.uniforms().iter().any(|other| around(&other.name).as_ref() == Some(&own) && ends(&other.name))
 }
 
 /// Whether a uniform is what a power is raised to: the last argument of `pow`.
