@@ -54,3 +54,12 @@ fn lights_reach_the_scene_and_no_two_are_alike() {
         assert_eq!(written.graded(&[(from, to)])["verdict"], "wrong", "{to}");
     }
 }
+
+#[test]
+fn parts_are_called_by_words_of_the_lecture() {
+    let manifest = Written::from(&["kettle.frag"]).text("assignment.toml");
+    for label in ["en = \"Angle of the light, N·L\", ja = \"光の当たる角度（N·L）\"", "en = \"Diffuse reflection\""]
+    {
+        assert!(manifest.contains(label), "{label} in {manifest}");
+    }
+}

@@ -1,14 +1,14 @@
 //! Lines of the rubric: parts of the solution that show by themselves when they are taken out. Each is tried.
 
+mod labels;
 mod parts;
 
 use super::FolderPlan;
-use super::names::NameWords;
 use super::writing::quoted;
 use crate::fit;
 use crate::interpreter::Stage;
-use crate::text::both;
 use crate::{Assignment, Text};
+use labels::{in_sentences, is_telling, label};
 use parts::terms_of;
 use std::collections::HashSet;
 
@@ -20,6 +20,8 @@ const MOST_TERMS: usize = 6;
 pub(super) struct ProposedLine {
     pub id: String,
     pub label: Text,
+    /// The label as a sentence has it: a name of the solution that no word is known for is code there.
+    pub in_sentences: Text,
     pub judges: Option<String>,
     /// What the part is called in the solution.
     local: Option<String>,
@@ -51,7 +53,14 @@ pub(super) fn plain(plan: &mut FolderPlan) {
 }
 
 fn line(id: &str, judges: Option<&str>) -> ProposedLine {
-    ProposedLine { id: id.to_owned(), label: label(id), judges: judges.map(str::to_owned), local: None, without: None }
+    ProposedLine {
+        id: id.to_owned(),
+        label: label(id),
+        in_sentences: in_sentences(id),
+        judges: judges.map(str::to_owned),
+        local: None,
+        without: None,
+    }
 }
 
 /// Puts lines for parts in the place of the line of the colour, or beside it where there is only one, or where they leave much
@@ -167,60 +176,11 @@ fn terms(plan: &FolderPlan) -> Vec<ProposedLine> {
     terms.truncate(MOST_TERMS);
     let line = |(name, change, _): (String, TextChange, HashSet<String>)| {
         let id = super::id_of(&name.replace('_', "-"));
-        ProposedLine { label: label(&name), id, judges: None, local: Some(name), without: Some(change) }
+        let (label, in_sentences) = (label(&name), in_sentences(&name));
+        ProposedLine { label, in_sentences, id, judges: None, local: Some(name), without: Some(change) }
     };
     let mut lines: Vec<ProposedLine> = terms.into_iter().map(line).collect();
     let mut ids = HashSet::from(["shape".to_owned()]);
     lines.retain(|line| ids.insert(line.id.clone()));
     lines
 }
-
-/// What a part is called in both languages.
-fn label(name: &str) -> Text {
-    let mut words = NameWords::of(name).words;
-    if words.len() > 1 && ["calc", "calculate", "compute", "get", "eval"].contains(&words[0].as_str()) {
-        words.remove(0);
-    }
-    let known = LABELS.iter().find(|(known, ..)| words.iter().any(|word| word.contains(known)));
-    if let Some((_, en, ja)) = known {
-        return both(*en, *ja);
-    }
-    let words = words.join(" ");
-    let mut letters = words.chars();
-    let en: String = letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect());
-    both(en, format!("「{name}」"))
-}
-
-/// Whether a name says by itself what a part is.
-fn is_telling(name: &str) -> bool {
-    let words = NameWords::of(name).words;
-    LABELS.iter().any(|(known, ..)| known.len() > 3 && words.iter().any(|word| word.starts_with(known)))
-}
-
-/// Words in names, and what such a part is called.
-const LABELS: &[(&str, &str, &str)] = &[
-    ("shape", "Shape", "形"),
-    ("lambert", "Diffuse reflection", "拡散反射光"),
-    ("amb", "Ambient light", "環境光"),
-    ("diff", "Diffuse reflection", "拡散反射光"),
-    ("spec", "Specular reflection", "鏡面反射光"),
-    ("highlight", "Highlight", "ハイライト"),
-    ("rim", "Rim light", "リムライト"),
-    ("fog", "Fog", "霧"),
-    ("gamma", "Gamma correction", "ガンマ補正"),
-    ("exposure", "Exposure", "露出"),
-    ("reflect", "Reflection", "反射"),
-    ("refract", "Refraction", "屈折"),
-    ("fresnel", "Fresnel reflection", "フレネル反射"),
-    ("emis", "Emission", "発光"),
-    ("outline", "Outline", "輪郭線"),
-    ("edge", "Edge", "縁"),
-    ("shadow", "Shadow", "影"),
-    ("discard", "What is cut out", "切り抜き"),
-    ("glow", "Glow", "光彩"),
-    ("noise", "Noise", "ノイズ"),
-    ("spot", "Spot light", "スポットライト"),
-    ("point", "Point lights", "点光源"),
-    ("dir", "Directional light", "平行光源"),
-    ("colo", "Colour", "色"),
-];

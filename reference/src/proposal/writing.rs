@@ -103,12 +103,12 @@ fn rubric(plan: &FolderPlan) -> String {
     }
     for line in missing {
         let Some(change) = &line.without else { continue };
-        let (en, ja) = (&line.label.en, &line.label.ja);
+        let (en, ja) = (&line.in_sentences.en, &line.in_sentences.ja);
         text += &format!("\n[[mistake]]\nid = {}\n", quoted(&format!("no-{}", line.id)));
         text += &format!(
             "title = {{ en = {}, ja = {} }}\n",
-            quoted(&format!("{en}: missing")),
-            quoted(&format!("{ja}がない"))
+            quoted(&format!("{}: missing", line.label.en)),
+            quoted(&format!("{}がない", ja.replacen('`', "「", 1).replacen('`', "」", 1)))
         );
         text += &format!("keeps = {{ {} = 0 }}\nvariants = [{}]\n", key(&line.id), change.text());
         text += &format!(
