@@ -63,3 +63,32 @@ fn parts_are_called_by_words_of_the_lecture() {
         assert!(manifest.contains(label), "{label} in {manifest}");
     }
 }
+
+#[test]
+fn a_power_of_a_negative_number_is_named_with_its_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("kettle.frag");
+    let text = fs::read_to_string(solution("kettle.frag")).unwrap();
+    fs::write(
+        &path,
+        text.replacen("const float PI", "const float K = pow(-2.0, 2.0);\nconst float PI", 1).replacen(
+            "0.03 * albedo",
+            "0.03 * K * albedo",
+            1,
+        ),
+    )
+    .unwrap();
+    let line = fs::read_to_string(&path).unwrap().lines().position(|line| line.contains("pow(-2.0")).unwrap() + 1;
+    for (language, words) in [("en", "`pow` no value where the base is negative"), ("ja", "底が負のとき")] {
+        let mut command = ggrade();
+        command
+            .args(["assignment", "new", "--lang", language])
+            .arg(folder.path().join("homework"))
+            .arg("--from")
+            .arg(&path);
+        let refused = command.assert().code(2);
+        let said = String::from_utf8_lossy(&refused.get_output().stderr).into_owned();
+        let place = [format!("line {line}"), format!("{line} 行目")];
+        assert!(said.contains(words) && place.iter().any(|place| said.contains(place)), "{said}");
+    }
+}

@@ -1,5 +1,7 @@
 //! What is right must be a number in every picture: what GLSL leaves undefined is another thing on another machine.
 
+mod undefined;
+
 use super::{CheckResult, solution};
 use crate::Assignment;
 use crate::assignment::{MANIFEST, error};
@@ -42,12 +44,7 @@ pub(super) fn are_defined(assignment: &Assignment) -> CheckResult<()> {
     let file = assignment.files.last().map_or(MANIFEST, |file| &file.solution.name);
     for pose in &poses {
         let undefined = |file: &str, cause: Option<UndefinedCause>| {
-            let message = both(
-                "the colour or the position is undefined, or no number: look at divisions, roots, powers, branches, `normalize` of \
-                 nothing, and `smoothstep` whose first edge is not the smaller one",
-                "色または位置が未定義か、数になりません。割り算、平方根、べき乗、分岐、長さ 0 の `normalize`、1 つ目の端が小さくない `smoothstep` \
-                 を確かめてください",
-            );
+            let message = undefined::message(cause);
             let place = solution::place(file, cause.map_or(0, |cause| cause.line));
             Err(error(format!("{place}, at t = {}", pose.t), message))
         };
