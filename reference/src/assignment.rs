@@ -217,6 +217,22 @@ impl Assignment {
         judged.is_some() && judged == self.equation.position
     }
 
+    /// The line of the folder's own manifest in which a line of the rubric says its id.
+    pub fn line_of_rubric(&self, id: &str) -> Option<usize> {
+        #[derive(serde::Deserialize)]
+        struct Ids {
+            rubric: Vec<Id>,
+        }
+        #[derive(serde::Deserialize)]
+        struct Id {
+            id: toml::Spanned<String>,
+        }
+        let text = self.folder.text(MANIFEST).ok()?;
+        let ids: Ids = toml::from_str(text).ok()?;
+        let own = ids.rubric.into_iter().find(|own| own.id.get_ref() == id)?;
+        Some(text[..own.id.span().start].matches('\n').count() + 1)
+    }
+
     /// Points of the whole rubric.
     pub fn max_score(&self) -> f64 {
         self.rubric.iter().map(|line| line.points).sum()

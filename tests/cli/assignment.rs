@@ -44,9 +44,26 @@ fn a_check_says_what_each_line_is_judged_by() {
     let (code, said) = check(&copy.replace(MANIFEST, TONES, &everywhere("2.0")));
     assert_eq!(code, Some(0), "{said}");
     assert!(
-        said.contains("note rubric line `tones`: shows at ") && said.contains("; judged at 0 of the probes"),
+        said.contains("note rubric line `tones`: shows at ") && said.contains("so that no probe judges it alone"),
         "{said}"
     );
+    // A line without `without` judges the rest; where there are two, nothing tells what either judges.
+    let line =
+        |id: &str| format!("[[rubric]]\nid = \"{id}\"\npoints = 10\nlabel = {{ en = \"Rest\", ja = \"残り\" }}\n\n");
+    let with = |lines: &str| {
+        let copy = Copy::of("tests/homeworks/toon");
+        let text =
+            fs::read_to_string(copy.path(MANIFEST)).unwrap().replacen("[[rubric]]", &format!("{lines}[[rubric]]"), 1);
+        let number = text.lines().position(|own| own == "id = \"rest\"").unwrap() + 1;
+        fs::write(copy.path(MANIFEST), text).unwrap();
+        (number, check(&copy).1)
+    };
+    let (number, said) = with(&line("rest"));
+    let place = format!("assignment.toml:{number}: rubric line `rest`: has no `without`");
+    assert!(said.contains(&format!("ok   {place}, so it judges the colour where no other line shows")), "{said}");
+    let (number, said) = with(&(line("rest") + &line("more")));
+    let place = format!("assignment.toml:{number}: rubric line `rest`: has no `without`");
+    assert!(said.contains(&format!("note {place}, and neither has another line")), "{said}");
     // A mistake that shows nothing, and two that show the same.
     let ceil = "\"ceil(lit * float(tones))\"";
     let (code, said) =

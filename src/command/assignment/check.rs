@@ -2,6 +2,7 @@
 
 #[cfg(feature = "opengl")]
 mod opengl;
+mod rubric;
 mod shows;
 mod texts;
 mod unseen;

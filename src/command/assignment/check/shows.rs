@@ -1,6 +1,6 @@
 //! Where the features of the rubric and the mistakes of a folder show.
 
-use super::{Album, CheckWording, unseen};
+use super::{Album, CheckWording, rubric, unseen};
 use crate::compare::PIXEL_TOLERANCE;
 use crate::fault::Fault;
 use crate::language::Text;
@@ -16,63 +16,12 @@ pub(super) fn say(said: CheckWording, assignment: &Assignment, album: &Album<'_>
     let probes = assignment.judging_probes();
     let alternatives = fit::Alternatives::new(assignment, &probes);
     let right = assignment.frames();
-    say_features(said, assignment, &alternatives, &probes, &right, album)?;
+    rubric::say(said, assignment, &alternatives, &probes, &right, album)?;
     for mistake in assignment.mistakes.iter().filter(|mistake| mistake.ways() > 0) {
         say_mistake(said, assignment, mistake, &probes, &right, album)?;
     }
     unseen::say(said, assignment, &probes, &right);
     Ok(say_alike(said, &alternatives))
-}
-
-/// Says where each line's feature shows, and which cannot be judged, as a term of a sum that always has another.
-fn say_features(
-    said: CheckWording,
-    assignment: &Assignment,
-    alternatives: &fit::Alternatives<'_>,
-    probes: &ProbeSet,
-    right: &[Frame],
-    album: &Album<'_>,
-) -> Result<(), Fault> {
-    let footprints = fit::Footprints::of(alternatives, fit::TOLERANCE);
-    // Where all is right, each line is judged that can be judged at all.
-    let judged = footprints.judged(&|_| true);
-    for line in footprints.lines() {
-        let (id, shows) = (&assignment.rubric[line].id, footprints.of_line(line).len());
-        let frames = assignment.features[line].as_ref().and_then(|feature| assignment.frames_without(feature));
-        let place = place(probes, shows, frames.as_deref(), right);
-        let at = judged.iter().find(|known| known.line == line).map_or(0, |known| known.probes().len());
-        let text = Text::new(
-            format!("rubric line `{id}`: shows {}; judged at {at} of the probes", place.en),
-            format!("採点の行 `{id}`: {}。そのうち {at} 点で採点できる", place.ja),
-        );
-        match at {
-            0 => said.note(&Text::new(
-                format!("{}: an answer that nothing explains loses its points", text.en),
-                format!("{}。原因の分からない答えでは、この行の点は残りません", text.ja),
-            )),
-            _ => said.ok(&text),
-        }
-        album.put(&format!("without-{id}"), frames.iter().flatten().map(picture).collect())?;
-    }
-    say_unjudged(said, footprints.unjudged(alternatives).len(), probes.probes.len());
-    Ok(())
-}
-
-/// Says that an answer may be wrong where no line of the rubric looks.
-fn say_unjudged(said: CheckWording, count: usize, all: usize) {
-    if count < fit::FEWEST {
-        return;
-    }
-    said.note(&Text::new(
-        format!(
-            "rubric: no line shows at {count} of {all} probes: an answer that is wrong only there keeps all points. Add a line \
-             without `without`, which judges all of the picture"
-        ),
-        format!(
-            "採点の行: 検査点 {all} 点中 {count} 点にはどの行も現れません。そこだけが間違っている答えは満点のままです。画像全体を採点する、\
-             `without` のない行を加えてください"
-        ),
-    ));
 }
 
 /// Says where a mistake shows in the first way in which it is written, and draws each.
@@ -111,7 +60,7 @@ fn say_mistake(
 }
 
 /// At how many probes and in how many frames something shows.
-fn place(probes: &ProbeSet, shows: usize, frames: Option<&[Frame]>, right: &[Frame]) -> Text {
+pub(super) fn place(probes: &ProbeSet, shows: usize, frames: Option<&[Frame]>, right: &[Frame]) -> Text {
     let all = probes.probes.len();
     let Some(frames) = frames else {
         return Text::new(format!("at {shows} of {all} probes"), format!("検査点 {all} 点中 {shows} 点に現れる"));
