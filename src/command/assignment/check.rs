@@ -20,9 +20,10 @@ use crate::sandbox::{GradedSubmission, GradingTask, Pool, Settings};
 use reference::Assignment;
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
-/// How long a lecturer waits on a busy machine before the solution is called too slow.
+/// How long a lecturer waits for the solution on a busy machine. What `check` says is the same on each machine, so that it says nothing of
+/// time.
 const PATIENCE: Duration = Duration::from_secs(20);
 
 /// Grades the folder's own files, and says what its rubric and its mistakes show.
@@ -51,16 +52,13 @@ pub(super) fn run(arguments: &CheckArguments, language: Language) -> Result<Exit
         album.put(name, frames)?;
         Ok(report)
     };
-    let begin = Instant::now();
     let solution = grade(&grade::solution(&assignment), "solution")?;
-    let took = begin.elapsed();
     let mut is_whole = say_solution(said, &solution);
     #[cfg(feature = "opengl")]
     let is_drawn_alike = opengl::say(said, &arguments.assignment);
     #[cfg(not(feature = "opengl"))]
     let is_drawn_alike = say_no_opengl(said);
     is_whole &= is_drawn_alike;
-    say_time(said, took, Settings::new(Arc::clone(&assignment)).deadline_of(&assignment));
     is_whole &= say_starter(said, &grade(&grade::handed_out(&assignment), "handed-out")?);
     is_whole &= shows::say(said, &assignment, &album)?;
     texts::say(said, &assignment);
@@ -124,24 +122,6 @@ fn say_no_opengl(said: CheckWording) -> bool {
         "本物の OpenGL とは比べていません: この ggrade は機能 `opengl` なしでビルドされています",
     ));
     true
-}
-
-/// Says that the solution takes most of the time that a hand-in has.
-fn say_time(said: CheckWording, took: Duration, deadline: Duration) {
-    if took <= deadline.mul_f64(0.8) {
-        return;
-    }
-    let (took, deadline) = (took.as_secs_f64(), deadline.as_secs_f64());
-    said.note(&Text::new(
-        format!(
-            "the solution took {took:.1} s on this machine, and a hand-in has {deadline} s: draw fewer poses or a smaller window, or \
-             write a longer `time`"
-        ),
-        format!(
-            "このマシンで解答の採点に {took:.1} 秒かかりました。提出物の制限は {deadline} 秒です。ポーズを減らすかウィンドウを小さくする、\
-             または `time` を大きくしてください"
-        ),
-    ));
 }
 
 /// Whether what is handed out leaves something to do.
