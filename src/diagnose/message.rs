@@ -10,11 +10,14 @@ use super::inside::{self, Finding};
 use super::listed::Listed;
 use super::locate::{self, Located, TracedProbes, Words};
 use super::{Cause, Evidence, Hints, addends};
+use crate::compare::COLOUR_TOLERANCE;
 use crate::language::Text;
 use blanks::Blanks;
 use reference::assignment::RubricLine;
 use reference::equation::Reads;
+use reference::fit::{Alternatives, Footprints};
 use reference::mistake::{FoundMistake, Mistake};
+use std::cell::OnceCell;
 
 /// A message and the line of the student's file that it speaks of.
 pub(super) struct Told {
@@ -42,7 +45,15 @@ pub(super) fn tell(
     }
     if told.is_empty() {
         let is_unseen = facts.is_finite_nowhere && !evidence.assignment.judges_position(line);
-        let text = if is_unseen { unseen() } else { agreement(evidence, line) };
+        let text = match () {
+            () if is_unseen => unseen(),
+            () if matches!(cause, Cause::Unexplained { .. } | Cause::Repaired(_))
+                && facts.is_never_alone(evidence, line) =>
+            {
+                never_alone()
+            }
+            () => agreement(evidence, line),
+        };
         return Told { text, line: None, file: None };
     }
     let join = |language: fn(&Text) -> &String, space| {
@@ -129,6 +140,8 @@ pub(super) struct Facts {
     wrong: Option<Listed>,
     /// Whether no colour is a number, so that nothing shows by itself.
     is_finite_nowhere: bool,
+    /// The lines whose feature shows beside others everywhere, by id: asked for where a line of a wrong answer costs nothing.
+    never_alone: OnceCell<Vec<String>>,
 }
 
 impl Facts {
@@ -179,7 +192,19 @@ impl Facts {
             names.extend(own.map(|own| format!("`{own}`")).or(symbol).map(|name| (definition.name.clone(), name)));
         }
         let is_finite_nowhere = addends::is_finite_nowhere(evidence);
-        Self { places, names, findings, listed, wrong, is_finite_nowhere }
+        Self { places, names, findings, listed, wrong, is_finite_nowhere, never_alone: OnceCell::new() }
+    }
+
+    /// Whether what a line judges shows beside other lines everywhere, so that no probe says that it is right.
+    fn is_never_alone(&self, evidence: &Evidence<'_>, line: &RubricLine) -> bool {
+        let sought = || {
+            let Evidence { assignment, probes, .. } = *evidence;
+            let footprints = Footprints::of(&Alternatives::new(assignment, probes), COLOUR_TOLERANCE);
+            let judged = footprints.judged(&|_| true);
+            let open = footprints.lines().filter(|line| !judged.iter().any(|known| known.line == *line));
+            open.map(|line| assignment.rubric[line].id.clone()).collect()
+        };
+        self.never_alone.get_or_init(sought).contains(&line.id)
     }
 
     /// The names of the handed-out file that the student's still has.
@@ -214,6 +239,15 @@ fn unseen() -> Text {
     Text::new(
         "No colour is a number, so that it cannot be seen by itself. No mistake was found in it in the text.",
         "どの色も数値になっていないので、この項だけを色から確かめることはできません。シェーダの中では、この項に間違いは見つかりませんでした。",
+    )
+}
+
+/// What is said of a line that costs nothing where other lines show wherever it does, as where all that is seen is tone-mapped.
+fn never_alone() -> Text {
+    Text::new(
+        "The colour alone does not tell whether it is right: other parts change it wherever this one does. No mistake was found in it in \
+         the text.",
+        "この項が現れるところではほかの項も色を変えるので、色だけからは確かめられません。シェーダの中では、この項に間違いは見つかりませんでした。",
     )
 }
 
