@@ -26,13 +26,20 @@ impl FrameResult {
         self.coverage_mismatches == 0 && self.mismatched_pixels == 0
     }
 
-    /// The frame that differs most, of equals the first; none where all agree. A shape that is elsewhere is as far off as a
-    /// colour can be.
+    /// How far off it is, in 1/255: what is painted in one picture alone is as far off as a colour can be.
+    pub fn largest_difference(&self) -> f64 {
+        if self.coverage_mismatches > 0 { 255.0 } else { self.max_difference }
+    }
+
+    /// In how many frames pixels are painted in one picture alone, and the most of these in a frame; none where there are none.
+    pub fn shape_mismatches(frames: &[Self]) -> Option<(usize, u32)> {
+        let each = || frames.iter().map(|frame| frame.coverage_mismatches).filter(|count| *count > 0);
+        Some((each().count(), each().max()?))
+    }
+
+    /// The frame that differs most, of equals the first; none where all agree.
     pub fn differs_most(frames: &[Self]) -> Option<usize> {
-        let off = |frame: &Self| {
-            let largest = if frame.coverage_mismatches > 0 { 255.0 } else { frame.max_difference };
-            (largest, frame.coverage_mismatches + frame.mismatched_pixels)
-        };
+        let off = |frame: &Self| (frame.largest_difference(), frame.coverage_mismatches + frame.mismatched_pixels);
         let differing = frames.iter().enumerate().rev().filter(|(_, frame)| !frame.agrees());
         let most = differing
             .map(|(index, frame)| (index, off(frame)))

@@ -12,6 +12,8 @@ pub(super) struct Player<'a> {
     pub last: usize,
     /// The pose that it starts at, where one differs.
     pub start: Option<usize>,
+    /// What there is to say of pixels that one picture paints and the other does not.
+    pub shape: Option<String>,
     pub panels: [Panel<'a>; 3],
     pub is_reduced: bool,
 }
@@ -30,6 +32,8 @@ impl<'a> Player<'a> {
         Some(Self {
             last: frames.len().checked_sub(1)?,
             start: FrameResult::differs_most(frames),
+            shape: FrameResult::shape_mismatches(frames)
+                .map(|(differing, most)| labels.shape_differs(differing, frames.len(), most)),
             panels: [
                 panel("yours", labels.yours, &gallery.yours),
                 panel("expected", labels.expected, &gallery.expected),
@@ -63,12 +67,15 @@ pub(super) fn frames(report: &Report, labels: &Labels) -> Vec<FrameView> {
 
 fn view(index: usize, frame: &FrameResult, count: usize, labels: &Labels) -> FrameView {
     let agrees = frame.agrees();
-    let band = band_of(frame.max_difference).unwrap_or(0);
+    let band = band_of(frame.largest_difference()).unwrap_or(0);
     let max_difference = number(frame.max_difference);
     let word = if agrees { labels.agrees } else { labels.differs };
     let mut caption = format!("t = {} · {}/{count} · {word}", number(frame.t), index + 1);
     if !agrees {
         caption += &format!(" · {} {max_difference}/255", labels.max_difference);
+    }
+    if frame.coverage_mismatches > 0 {
+        caption += &format!(" · {} {}", labels.coverage_mismatches, frame.coverage_mismatches);
     }
     FrameView {
         number: index + 1,

@@ -37,6 +37,16 @@ fn a_page_refers_to_nothing_outside_itself() {
 }
 
 #[test]
+fn what_is_painted_in_one_picture_alone_is_told() {
+    let mut report = samples::wrong();
+    report.frames[1].coverage_mismatches = 1203;
+    let html = page(&report, Language::En);
+    let said = "1 of 25 have pixels that only one of the two pictures paints, up to 1203 in a frame";
+    assert!(visible(&html).contains(said) && html.contains("· Shape pixels 1203"), "{html}");
+    assert!(visible(&page(&report, Language::Ja)).contains("一方だけで描かれている画素があります"));
+}
+
+#[test]
 fn every_link_in_a_page_has_its_target() {
     for report in samples::all() {
         let html = page(&report, Language::En);

@@ -63,6 +63,19 @@ impl Labels {
         }
     }
 
+    /// What is said of pixels that one picture paints and the other does not: `most` of them in a frame.
+    pub fn shape_differs(&self, differing: usize, total: usize, most: u32) -> String {
+        if self.japanese() {
+            format!(
+                "{total} 枚のうち {differing} 枚に、正解とあなたの画像の一方だけで描かれている画素があります（1 枚に最大 {most} 画素）"
+            )
+        } else {
+            format!(
+                "{differing} of {total} have pixels that only one of the two pictures paints, up to {most} in a frame"
+            )
+        }
+    }
+
     pub fn probes_agree(&self, agree: u32, total: u32) -> String {
         if self.japanese() {
             format!("{total} 点のうち {agree} 点が一致")

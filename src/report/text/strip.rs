@@ -6,7 +6,7 @@ use crate::report::difference::{BANDS, agreeing, band_of, shades};
 use crate::report::wrap::{columns, pad, wrap};
 
 impl ReportWriter {
-    /// One cell a frame, shaded by its largest difference, above the axis of t.
+    /// One cell a frame, shaded by how far off it is, above the axis of t.
     pub(super) fn strip(&mut self, frames: &[FrameResult], column: usize) {
         let labels = self.labels;
         let indent = " ".repeat(column + 2);
@@ -27,6 +27,9 @@ impl ReportWriter {
             self.legend(column + 2, &legend);
             self.legend(column + 2, labels.legend);
         }
+        if let Some((differing, most)) = FrameResult::shape_mismatches(frames) {
+            self.legend(column + 2, &labels.shape_differs(differing, frames.len(), most));
+        }
         self.gap();
     }
 
@@ -45,7 +48,7 @@ impl ReportWriter {
             return self.paint(GOOD, &pad("·", width));
         }
         // A frame that differs is never drawn as one that agrees, whatever its numbers are.
-        let shade = BANDS[band_of(frame.max_difference).unwrap_or(0)].shade;
+        let shade = BANDS[band_of(frame.largest_difference()).unwrap_or(0)].shade;
         self.paint(BAD, &shade.to_string().repeat(width))
     }
 }

@@ -157,3 +157,15 @@ fn with_several_files_a_place_names_its_own() {
     assert!(text.contains("ggsample11.vert, ggsample11.frag"), "{text}");
     assert!(text.contains("warning · ggsample11.vert, line 12, column 9"), "{text}");
 }
+
+#[test]
+fn what_is_painted_in_one_picture_alone_is_told() {
+    let mut report = samples::wrong();
+    let said = "pixels that only one of the two pictures paints";
+    assert!(!text(&report, Language::En, 100).contains(said));
+    // The colours of frame 0 agree, and it lacks something; frame 1 shows too much.
+    (report.frames[0].coverage_mismatches, report.frames[1].coverage_mismatches) = (40, 1203);
+    let text = text(&report, Language::En, 100);
+    assert!(text.contains(&format!("2 of 25 have {said}, up to 1203 in a frame")), "{text}");
+    assert!(text.contains("████▒▒▓▓████"), "as far off as a colour can be: {text}");
+}
