@@ -3,6 +3,7 @@
 //! Two passes over the student's text. The first, under OpenGL's rules, is the verdict; the second
 //! writes SPIR-V, from which the module is made. What only the second refuses is our limit.
 
+mod blocks;
 mod boundary;
 mod build;
 mod concessions;
@@ -30,6 +31,7 @@ mod uniforms;
 mod verdict;
 
 pub use crate::ffi::glslang::Stage;
+pub use blocks::PlacedUniform;
 pub use entry::{CAPTURE_GROUP, CAPTURE_HEADER, CAPTURE_SLOT, StageVariable};
 pub use fuel::{LoopFuel, MAX_TURNS};
 pub(crate) use interface::place;
@@ -170,6 +172,7 @@ pub fn warm_up() {
         uniforms: vec![],
         outputs: vec![Variable { name: "colour".into(), ty: "vec4".into() }],
         constants: vec![],
+        placed: vec![],
         version: String::new(),
         alike: None,
         fragment: fragment.to_owned(),

@@ -73,9 +73,8 @@ impl Assignment {
     ) -> Vec<RecognisedUniform<'_>> {
         let mut added: Vec<&ProgramVariable> = Vec::new();
         for uniform in vertex.uniforms().iter().chain(fragment.uniforms()) {
-            let is_known =
-                self.interface.uniforms.iter().any(|own| own.path == uniform.name && own.kind == uniform.kind)
-                    || added.iter().any(|known| known.name == uniform.name);
+            let is_known = self.interface.uniforms.iter().any(|own| own.is(uniform) && own.kind == uniform.kind)
+                || added.iter().any(|known| known.name == uniform.name);
             if !is_known && self.free.iter().any(|free| free.kind == uniform.kind) {
                 added.push(uniform);
             }
@@ -140,6 +139,7 @@ impl Assignment {
             kind: taken.as_what.kind.clone(),
             feed: taken.as_what.feed.clone(),
             probe: None,
+            place: None,
         }));
         other
     }

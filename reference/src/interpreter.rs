@@ -45,6 +45,7 @@ pub mod outline;
 mod parse;
 mod run;
 mod sheet;
+pub mod std140;
 mod syntax;
 mod text;
 mod texture;
@@ -59,7 +60,7 @@ pub use change::{
     ChangedPart, FREE, Ingredients, Operator, ProgramRepair, ProgramSlip, Repairable, program_slips,
     program_without_parts,
 };
-pub use code::{Interpolation, ProgramVariable};
+pub use code::{BlockPlace, Interpolation, ProgramVariable};
 pub use compile::{DefinitionSlip, Draft};
 pub use nature::{Copied, Nature};
 pub use run::{

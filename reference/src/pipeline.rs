@@ -194,6 +194,19 @@ impl<'a> UniformsOf<'a> {
 }
 
 impl Interface {
+    /// Whether a program declares other parts of a block than the homework fills, such as a `vec4` for a `vec3` and a `float`: what lies
+    /// there has no value of its own here.
+    fn leaves_open(&self, program: &Program) -> bool {
+        let is_filled = |block: &str| {
+            self.uniforms.iter().filter_map(|uniform| uniform.place.as_ref()).any(|place| place.block == block)
+        };
+        let is_open = |own: &ProgramVariable| {
+            own.place.as_ref().is_some_and(|place| is_filled(&place.block))
+                && !self.uniforms.iter().any(|uniform| uniform.is(own) && uniform.kind == own.kind)
+        };
+        program.uniforms().iter().any(is_open)
+    }
+
     /// A run with uniforms, as far as the program has them, and textures.
     fn fed<'a>(
         &self,
@@ -206,12 +219,15 @@ impl Interface {
         if samples == 0 {
             return Some(run);
         }
+        if self.leaves_open(program) {
+            return None;
+        }
         for (place, uniform) in self.uniforms.iter().enumerate() {
-            let is_own = |own: &&ProgramVariable| own.name == uniform.path && own.kind == uniform.kind;
+            let is_own = |own: &&ProgramVariable| uniform.is(own) && own.kind == uniform.kind;
             let Some(own) = program.uniforms().iter().find(is_own) else { continue };
             run = match uniforms.value(place) {
-                Ok(value) => run.uniform(&uniform.path, value.numbers()).ok()?,
-                Err(values) => run.uniform_of_each(&uniform.path, columns(own, values)).ok()?,
+                Ok(value) => run.uniform(&own.name, value.numbers()).ok()?,
+                Err(values) => run.uniform_of_each(&own.name, columns(own, values)).ok()?,
             };
         }
         Some(run)

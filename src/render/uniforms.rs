@@ -97,7 +97,13 @@ mod tests {
             ty: ty.clone(),
             alias: None,
         };
-        UniformBlock { binding: 0, size: 256, is_default: true, members: members.iter().map(member).collect() }
+        UniformBlock {
+            name: String::new(),
+            binding: 0,
+            size: 256,
+            is_default: true,
+            members: members.iter().map(member).collect(),
+        }
     }
 
     fn filled(block: &UniformBlock, uniforms: &[(&str, Type, &[f64])]) -> Vec<u32> {

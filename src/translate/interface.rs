@@ -1,5 +1,6 @@
 //! What the assignment's program feeds to the shader and takes from it.
 
+use super::blocks::{self, PlacedUniform};
 use super::spirv::{CommonTexture, DeclaredUniform};
 use super::{Shader, Stage, TranslationRefusal};
 use crate::diagnostic::{Diagnostic, DiagnosticStage};
@@ -32,6 +33,8 @@ pub struct LinkedInterface {
     pub outputs: Vec<Variable>,
     /// Names of the constants that the handed-out file defines.
     pub constants: Vec<String>,
+    /// The parts of blocks that are filled byte by byte.
+    pub placed: Vec<PlacedUniform>,
     /// The fixed fragment shader.
     pub fragment: CString,
     /// The line with `#version` of what is handed out.
@@ -63,6 +66,7 @@ impl LinkedInterface {
             uniforms: uniforms.map(|(_, uniform)| variable(&uniform.path, &uniform.kind)).collect(),
             outputs: assignment.interface.outputs.iter().map(|output| variable(&output.name, &output.kind)).collect(),
             constants: assignment.constants.iter().map(|constant| constant.name.clone()).collect(),
+            placed: PlacedUniform::of(assignment),
             version: assignment
                 .files
                 .iter()
@@ -90,6 +94,8 @@ impl LinkedInterface {
     pub(super) fn set_uniforms(&self) -> Vec<&str> {
         let root = |path: &'_ str| path.find(['.', '[']).unwrap_or(path.len());
         let mut roots: Vec<&str> = self.uniforms.iter().map(|uniform| &uniform.name[..root(&uniform.name)]).collect();
+        // A block may be filled whatever its members are called.
+        roots.extend(self.placed.iter().map(|own| own.place.block.as_str()));
         roots.dedup();
         roots
     }
@@ -144,7 +150,11 @@ pub(super) fn check(
     let mut errors = Vec::new();
     let mut notes = Vec::new();
     let mut noted: Vec<&str> = Vec::new();
-    for declared in &shader.known.declared {
+    let is_laid_out = |declared: &&DeclaredUniform| {
+        let root = declared.path.split('.').next().unwrap_or_default();
+        declared.is_in_block && interface.placed.iter().any(|own| own.place.block == root)
+    };
+    for declared in shader.known.declared.iter().filter(|declared| !is_laid_out(declared)) {
         if let Some(expected) = interface.uniforms.iter().find(|uniform| declared.is_at(&uniform.name)) {
             if !declared.takes(&expected.ty) {
                 errors.push(wrong_type(source, "uniform", expected, &declared.ty));
@@ -161,6 +171,9 @@ pub(super) fn check(
         }
     }
     errors.dedup();
+    let [wrong, others] = blocks::told(&shader.misplaced, source, interface);
+    errors.extend(wrong);
+    notes.extend(others);
     for unset in &shader.known.unset {
         match interface.uniforms.iter().find(|uniform| uniform.name == unset.name) {
             Some(expected) if unset.ty != "block" => errors.push(wrong_type(source, "uniform", expected, unset.ty)),
@@ -206,7 +219,7 @@ fn wrong_type(source: &Source, qualifier: &str, expected: &Variable, declared: &
     ))
 }
 
-fn unset_uniform(source: &Source, name: &str, interface: &LinkedInterface) -> Diagnostic {
+pub(super) fn unset_uniform(source: &Source, name: &str, interface: &LinkedInterface) -> Diagnostic {
     let known: Vec<_> = interface.uniforms.iter().map(|uniform| format!("`{}`", uniform.name)).collect();
     let diagnostic = Diagnostic::warning(
         DiagnosticStage::Interface,

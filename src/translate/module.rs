@@ -1,5 +1,6 @@
 //! SPIR-V → naga module with the entry point rebuilt.
 
+use super::blocks::{self, Misplaced};
 use super::entry::{self, AttributePart, CAPTURE_SLOT, StageVariable};
 use super::fuel::{self, LoopFuel};
 use super::gate::{self, Costs};
@@ -35,6 +36,8 @@ pub struct Shader {
     pub uniforms: Vec<UniformBlock>,
     /// Whether it reads textures, which are bound at [`TEXTURES`](super::TEXTURES).
     pub reads_textures: bool,
+    /// What its blocks have elsewhere than the homework.
+    pub(super) misplaced: Vec<Misplaced>,
     /// Its uniforms as its text declares them.
     pub(super) known: UniformVariables,
     /// From a span of the module to the line of the student's file.
@@ -160,7 +163,8 @@ pub(super) fn build(
             entry::rebuild_fragment(&mut module, &inputs, &outputs, (!how.is_fixed).then_some(&hooks))
         }
     };
-    let uniforms = bind_uniforms(&mut module);
+    let mut uniforms = bind_uniforms(&mut module);
+    let misplaced = blocks::lay_out(&mut uniforms, &interface.placed);
     let mut inputs: Vec<StageVariable> = inputs.into_iter().map(|part| part.attribute).collect();
     // The compiler's automatic locations may collide with the student's own.
     (0..).zip(&mut inputs).for_each(|(location, input)| input.location = location);
@@ -175,6 +179,7 @@ pub(super) fn build(
         shift,
         uniforms,
         reads_textures,
+        misplaced,
         known,
         lines,
         meters,

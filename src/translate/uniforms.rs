@@ -26,6 +26,8 @@ impl UniformMember {
 /// A block of uniforms: binding 0, 1, … of group 0.
 #[derive(Clone, Debug)]
 pub struct UniformBlock {
+    /// Its name.
+    pub name: String,
     /// Its binding in group 0.
     pub binding: u32,
     /// Its size in bytes.
@@ -53,7 +55,7 @@ pub(super) fn bind_uniforms(module: &mut Module) -> Vec<UniformBlock> {
 
 fn block(types: &naga::UniqueArena<Type>, variable: &naga::GlobalVariable, binding: u32) -> UniformBlock {
     let TypeInner::Struct { members, span } = &types[variable.ty].inner else {
-        return UniformBlock { binding, size: 16, is_default: false, members: Vec::new() };
+        return UniformBlock { name: String::new(), binding, size: 16, is_default: false, members: Vec::new() };
     };
     let name = types[variable.ty].name.as_deref().unwrap_or_default();
     let is_default = name == spirv::DEFAULT_BLOCK;
@@ -66,7 +68,7 @@ fn block(types: &naga::UniqueArena<Type>, variable: &naga::GlobalVariable, bindi
         let alias = std::mem::replace(&mut uniform.path, path);
         uniform.alias = Some(alias);
     }
-    UniformBlock { binding, size: *span, is_default, members: found }
+    UniformBlock { name: name.to_owned(), binding, size: *span, is_default, members: found }
 }
 
 /// The scalars, vectors and matrices that a type consists of.

@@ -1,5 +1,6 @@
 //! Blocks: those of uniforms, with all that std140 lays out in ways of its own, and those that go from stage to stage.
 
+use super::authoring::Written;
 use super::folders::{Copy, MANIFEST};
 use super::{ggrade, json};
 use std::fs;
@@ -125,4 +126,52 @@ fn a_block_goes_from_stage_to_stage_and_a_slip_is_named_where_it_is_written() {
     let lines = report["rubric"].as_array().unwrap();
     let colour = lines.iter().find(|line| line["id"] == "colour").unwrap();
     assert_eq!((&colour["file"], &colour["line"]), (&"waving.vert".into(), &8.into()), "{colour}");
+}
+
+/// The program fills a block byte by byte, as the homework lays it out: names are a student's own affair, the order is not.
+#[test]
+fn a_block_is_filled_by_its_bytes_whatever_its_members_are_called() {
+    let written = Written::from(&["lanterns.frag"]);
+    let said = |report: &serde_json::Value| report["diagnostics"][0]["message"].as_str().unwrap_or_default().to_owned();
+    let line = |report: &serde_json::Value| report["diagnostics"][0]["line"].as_u64().unwrap_or_default();
+    // Other names, and one vector for a vector and a number behind it.
+    let members = "    vec3 position;\n    float intensity;\n    vec3 color;\n    float radius;\n";
+    let renamed = [
+        (members, "    vec3 at;\n    float strength;\n    vec3 paint;\n    float reach;\n"),
+        ("light.position", "light.at"),
+        ("light.radius", "light.reach"),
+        ("light.color * light.intensity", "light.paint * light.strength"),
+        ("Light lights[3]", "Light lamps[3]"),
+        ("shade(lights[i]", "shade(lamps[i]"),
+    ];
+    let packed = [
+        (members, "    vec4 at;\n    vec4 paint;\n"),
+        ("light.position", "light.at.xyz"),
+        ("light.radius", "light.paint.w"),
+        ("light.color * light.intensity", "light.paint.rgb * light.at.w"),
+    ];
+    for changes in [&renamed[..], &packed[..]] {
+        let report = written.graded(changes);
+        assert_eq!(
+            (&report["verdict"], report["diagnostics"].as_array().unwrap().len()),
+            (&"correct".into(), 0),
+            "{report:#}"
+        );
+    }
+    // Members of one type in another order have each other's values.
+    let swapped = "    vec3 color;\n    float radius;\n    vec3 position;\n    float intensity;\n";
+    let report = written.graded(&[(members, swapped)]);
+    assert_eq!((&report["verdict"], line(&report)), (&"wrong".into(), 3), "{report:#}");
+    assert!(
+        said(&report)
+            .contains("`lights[0].color` lies in the block `Lights` where the program writes `lights[0].position`")
+    );
+    assert_eq!(report["diagnostics"][0]["severity"], "warning");
+    // Of other types there is no value.
+    let report =
+        written.graded(&[("    Light lights[3];\n    int lightCount;", "    int lightCount;\n    Light lights[3];")]);
+    assert_eq!((&report["verdict"], line(&report)), (&"rejected".into(), 10), "{report:#}");
+    assert!(
+        said(&report).contains("`lightCount` lies in the block `Lights` where the program writes `lights[0].position`")
+    );
 }

@@ -2,7 +2,7 @@
 
 use crate::Value;
 use crate::feed::{Bounds, Feed, Stream};
-use crate::interpreter::Type;
+use crate::interpreter::{BlockPlace, ProgramVariable, Type};
 use crate::scene::Moment;
 
 /// What the handed-in stage is given and what it writes, by name.
@@ -38,9 +38,19 @@ pub struct Uniform {
     pub feed: Feed,
     /// What probes may draw at random.
     pub probe: Option<Bounds>,
+    /// Where it lies in a block that the homework lays out by `std140`, which a program fills byte by byte.
+    pub place: Option<BlockPlace>,
 }
 
 impl Uniform {
+    /// Whether a variable of a program is this one: by its place in such a block, whatever it is called there, else by its name.
+    pub fn is(&self, own: &ProgramVariable) -> bool {
+        match (&self.place, &own.place) {
+            (Some(place), Some(own)) if place.block == own.block => place.offset == own.offset,
+            _ => self.path == own.name,
+        }
+    }
+
     /// Its value at a moment; numbers that are none where an expression has no value.
     pub fn value(&self, moment: &Moment) -> Value {
         let none = || Value::of(self.kind.clone(), vec![f64::NAN; self.kind.slots().unwrap_or(0)]);

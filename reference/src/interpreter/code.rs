@@ -232,6 +232,19 @@ pub struct ProgramVariable {
     pub interpolation: Interpolation,
     /// Its location, where the program gives it.
     pub location: Option<u32>,
+    /// Of a part of a block of uniforms, where it lies in it.
+    pub place: Option<BlockPlace>,
+}
+
+/// A place in a block of uniforms.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct BlockPlace {
+    /// The block's name.
+    pub block: String,
+    /// How many bytes lie before it by the layout `std140`.
+    pub offset: u32,
+    /// Whether the program says that the block has this layout.
+    pub is_std140: bool,
 }
 
 /// How a variable is interpolated between vertices.

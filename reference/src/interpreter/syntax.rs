@@ -78,6 +78,10 @@ pub struct Qualifiers {
     pub interpolation: Interpolation,
     /// `layout(location = …)`, where a number is written.
     pub location: Option<u32>,
+    /// Whether `layout(std140)` is among them.
+    pub is_std140: bool,
+    /// Whether `layout` says where something lies, or that rows lie before columns.
+    pub is_placed: bool,
 }
 
 /// A type as it is written.
@@ -131,8 +135,8 @@ pub struct DeclaredVariable {
 pub struct InterfaceBlock {
     /// Where it starts.
     pub line: u32,
-    /// Where its members live.
-    pub storage: StorageQualifier,
+    /// What stands before its name.
+    pub qualifiers: Qualifiers,
     /// The block's name, by which a host knows it.
     pub name: Name,
     /// Its members.

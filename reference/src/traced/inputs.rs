@@ -79,15 +79,15 @@ fn is_flat(output: &ProgramVariable) -> bool {
 
 /// The uniforms that a program has, a column for each scalar.
 fn uniforms<'a>(
-    assignment: &'a Assignment,
-    program: &Program,
+    assignment: &Assignment,
+    program: &'a Program,
     places: &[Place<'_>],
     each: usize,
 ) -> Vec<(&'a str, Vec<Vec<f64>>)> {
     let own = assignment.interface.uniforms.iter().enumerate().filter_map(|(number, uniform)| {
-        let variable = program.uniforms().iter().find(|own| own.name == uniform.path)?;
+        let variable = program.uniforms().iter().find(|own| uniform.is(own))?;
         let values = places.iter().flat_map(|place| std::iter::repeat_n(&place.uniforms[number], each));
-        Some((uniform.path.as_str(), columns(variable, values)))
+        Some((variable.name.as_str(), columns(variable, values)))
     });
     own.collect()
 }

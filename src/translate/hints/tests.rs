@@ -52,6 +52,7 @@ pub fn interface() -> LinkedInterface {
         uniforms: vec![variable("mv", "mat4"), variable("mvp", "mat4")],
         outputs: vec![variable("colour", "vec4")],
         constants: ["lightPosition", "lightAmbient", "shine"].map(str::to_owned).to_vec(),
+        placed: Vec::new(),
         version: "#version 410 core".to_owned(),
         alike: None,
         fragment: c"#version 410 core\nin vec4 colour;\nout vec4 c;\nvoid main() { c = colour; }\n".to_owned(),

@@ -137,8 +137,8 @@ pub fn walk(items: &mut [Item], walk: &mut TreeWalk<'_>) {
                 names.truncate(known);
             }
             // Members of a block without a name of its own are known by theirs.
-            Item::Block(InterfaceBlock { members, instance: None, storage, .. })
-                if *storage != StorageQualifier::Output =>
+            Item::Block(InterfaceBlock { members, instance: None, qualifiers, .. })
+                if qualifiers.storage != StorageQualifier::Output =>
             {
                 members.iter().for_each(|member| declare(member, &mut names));
             }

@@ -128,6 +128,7 @@ impl Compiler {
                 line,
                 interpolation,
                 location,
+                place: None,
             });
         }
     }

@@ -2,11 +2,11 @@
 
 use super::scope::Symbol;
 use super::{Compiler, scope};
-use crate::interpreter::code::{Interpolation, ProgramVariable, Slot};
+use crate::interpreter::code::{BlockPlace, Interpolation, ProgramVariable, Slot};
 use crate::interpreter::run::Undefined;
 use crate::interpreter::syntax::{BaseType, Declaration, InterfaceBlock, Name, Qualifiers, StorageQualifier};
 use crate::interpreter::types::{Struct, Type};
-use crate::interpreter::{Refusal, Stage, builtin};
+use crate::interpreter::{Refusal, Stage, builtin, std140};
 use crate::text::both;
 use std::sync::Arc;
 
@@ -91,6 +91,7 @@ impl Compiler {
             line: self.builder.line,
             interpolation,
             location,
+            place: None,
         }
     }
 
@@ -152,11 +153,14 @@ impl Compiler {
     /// An interface block, with or without a name for the program.
     pub(super) fn interface_block(&mut self, block: &InterfaceBlock) -> Result<(), Refusal> {
         self.builder.line = block.line;
-        let storage = self.storage(block.storage);
+        let storage = self.storage(block.qualifiers.storage);
         if storage == StorageQualifier::Shared {
             return self.storage_buffer(block);
         }
         let members = self.member_types(&block.members)?;
+        let is_laid_out = !block.qualifiers.is_placed && !block.members.iter().any(|own| own.qualifiers.is_placed);
+        let offsets = if is_laid_out { std140::offsets(&members) } else { Vec::new() };
+        let first = self.uniforms.len();
         let each = |member: &Declaration| -> Vec<(Interpolation, u32)> {
             member.variables.iter().map(|own| (member.qualifiers.interpolation, own.line)).collect()
         };
@@ -173,6 +177,7 @@ impl Compiler {
                 self.qualify(storage, interpolation, None);
                 self.scopes.declare(Name::from(name), Symbol::variable(kind, slot));
             }
+            self.place_parts(first, block, &offsets);
             return Ok(());
         };
         self.structures += 1;
@@ -182,6 +187,7 @@ impl Compiler {
         let slot = self.allocate(&kind)?;
         if storage == StorageQualifier::Uniform {
             self.leaves(&block.name, &kind, slot)?;
+            self.place_parts(first, block, &offsets);
         } else if let Type::Struct(structure) = &kind {
             let mut slot = slot;
             for ((name, kind), (interpolation, line)) in structure.members.iter().zip(ways) {
@@ -202,6 +208,15 @@ impl Compiler {
         }
         self.scopes.declare(Name::clone(instance), Symbol::variable(kind, slot));
         Ok(())
+    }
+
+    /// Says where the uniforms from `first` on lie, which are the parts of a block; those of several blocks in an array have no place.
+    fn place_parts(&mut self, first: usize, block: &InterfaceBlock, offsets: &[u32]) {
+        let Some(parts) = self.uniforms.get_mut(first..).filter(|parts| parts.len() == offsets.len()) else { return };
+        let is_std140 = block.qualifiers.is_std140;
+        for (part, offset) in parts.iter_mut().zip(offsets) {
+            part.place = Some(BlockPlace { block: block.name.to_string(), offset: *offset, is_std140 });
+        }
     }
 
     fn storage_buffer(&mut self, block: &InterfaceBlock) -> Result<(), Refusal> {

@@ -26,7 +26,7 @@ impl Parser<'_> {
             return self.requalification();
         }
         if self.is_name(0) && self.text(1) == "{" && self.text(0) != "struct" {
-            return Ok(Item::Block(self.block_of(qualifiers.storage, line)?));
+            return Ok(Item::Block(self.block_of(qualifiers, line)?));
         }
         let kind = self.declared_type()?;
         if self.is_name(0) && self.text(1) == "(" {
@@ -64,7 +64,7 @@ impl Parser<'_> {
                 "varying" => StorageQualifier::Varying,
                 "shared" | "buffer" if self.is_name(1) => StorageQualifier::Shared,
                 "layout" if self.text(1) == "(" => {
-                    qualifiers.location = self.layout()?.or(qualifiers.location);
+                    self.layout(&mut qualifiers)?;
                     continue;
                 }
                 "flat" | "noperspective" => {
@@ -93,14 +93,17 @@ impl Parser<'_> {
         self.text(1) == "("
     }
 
-    /// What stands in a layout, and the location that it gives.
-    fn layout(&mut self) -> Result<Option<u32>, Refusal> {
+    /// What stands in a layout.
+    fn layout(&mut self, qualifiers: &mut Qualifiers) -> Result<(), Refusal> {
         self.at += 1;
         let mut depth = 0_usize;
-        let mut location = None;
         loop {
             match self.text(0) {
-                "location" if self.text(1) == "=" => location = self.text(2).parse().ok(),
+                "location" if self.text(1) == "=" => {
+                    qualifiers.location = self.text(2).parse().ok().or(qualifiers.location);
+                }
+                "std140" => qualifiers.is_std140 = true,
+                "offset" | "align" | "row_major" => qualifiers.is_placed = true,
                 "(" => depth += 1,
                 ")" => depth -= 1,
                 "" => return Err(self.unexpected(token(")"))),
@@ -108,7 +111,7 @@ impl Parser<'_> {
             }
             self.at += 1;
             if depth == 0 {
-                return Ok(location);
+                return Ok(());
             }
         }
     }
@@ -175,12 +178,12 @@ impl Parser<'_> {
         Ok(DeclaredVariable { line, name, lengths, value })
     }
 
-    fn block_of(&mut self, storage: StorageQualifier, line: u32) -> Result<InterfaceBlock, Refusal> {
+    fn block_of(&mut self, qualifiers: Qualifiers, line: u32) -> Result<InterfaceBlock, Refusal> {
         let name = self.name()?;
         let members = self.members()?;
         let instance = if self.is_name(0) { Some((self.name()?, self.lengths()?)) } else { None };
         self.expect(";")?;
-        Ok(InterfaceBlock { line, storage, name, members, instance })
+        Ok(InterfaceBlock { line, qualifiers, name, members, instance })
     }
 
     fn function(&mut self, result: TypeName) -> Result<Function, Refusal> {

@@ -7,7 +7,7 @@ use crate::assignment::check::stages::Compiled;
 use crate::assignment::check::{CheckResult, solution};
 use crate::assignment::{Uniform, error};
 use crate::feed::{Feed, Role};
-use crate::interpreter::{ProgramVariable, Type};
+use crate::interpreter::{BlockPlace, ProgramVariable, Type};
 use crate::manifest;
 use crate::text::both;
 
@@ -57,9 +57,17 @@ impl InterfaceReader<'_> {
                 Some(said) => values::bounds(said, rest, &kind)
                     .map_err(|what| self.wrong(at, &place, of_key("probe", &leaf, &kind, &what)))?,
             };
-            all.push(Uniform { path: leaf, kind, feed, probe });
+            let place = self.place_in_block(&leaf);
+            all.push(Uniform { path: leaf, kind, feed, probe, place });
         }
         Ok(())
+    }
+
+    /// Where a uniform lies in a block that a shader of the folder lays out by `std140`.
+    fn place_in_block(&self, leaf: &str) -> Option<BlockPlace> {
+        let variables = self.programs.iter().flat_map(|own| own.program.uniforms());
+        let mut places = variables.filter(|own| own.name == leaf).filter_map(|own| own.place.as_ref());
+        places.find(|place| place.is_std140).cloned()
     }
 
     /// Where the value of `leaf` comes from, which lies at `rest` in what the entry names.
