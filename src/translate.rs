@@ -172,6 +172,7 @@ pub fn warm_up() {
         uniforms: vec![],
         outputs: vec![Variable { name: "colour".into(), ty: "vec4".into() }],
         constants: vec![],
+        functions: vec![],
         placed: vec![],
         version: String::new(),
         alike: None,

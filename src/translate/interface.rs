@@ -8,6 +8,7 @@ use crate::fault::Fault;
 use crate::language::Text;
 use crate::source::Source;
 use naga::{Scalar, ScalarKind, TypeInner};
+use reference::interpreter::outline;
 use reference::{Assignment, assignment};
 use std::ffi::CString;
 
@@ -35,6 +36,8 @@ pub struct LinkedInterface {
     pub constants: Vec<String>,
     /// The parts of blocks that are filled byte by byte.
     pub placed: Vec<PlacedUniform>,
+    /// Names of the functions that the handed-out files have beside `main`.
+    pub functions: Vec<String>,
     /// The fixed fragment shader.
     pub fragment: CString,
     /// The line with `#version` of what is handed out.
@@ -67,6 +70,7 @@ impl LinkedInterface {
             outputs: assignment.interface.outputs.iter().map(|output| variable(&output.name, &output.kind)).collect(),
             constants: assignment.constants.iter().map(|constant| constant.name.clone()).collect(),
             placed: PlacedUniform::of(assignment),
+            functions: assignment.files.iter().flat_map(|file| functions(file.starter_shader())).collect(),
             version: assignment
                 .files
                 .iter()
@@ -99,6 +103,12 @@ impl LinkedInterface {
         roots.dedup();
         roots
     }
+}
+
+/// The functions of a text that stand beside `main`.
+fn functions(text: &str) -> Vec<String> {
+    let all = outline::functions(text).into_iter().map(|function| function.name.text);
+    all.filter(|name| name != "main").collect()
 }
 
 impl DeclaredUniform {

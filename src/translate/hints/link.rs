@@ -192,17 +192,31 @@ fn recursion(file: &HintContext<'_>, entry: &LogEntry<'_>) -> Option<Diagnostic>
         let close = file.closing(d.index + 1);
         d.role == DeclarationKind::Function && close.is_some_and(|close| file.word(Some(close + 1)) == "{")
     };
-    let body = file.declarations.iter().filter(|d| d.name == caller).find(is_body)?;
-    let open = file.closing(body.index + 1)? + 1;
-    let close = file.closing(open)?;
-    let call = (open..close).find(|&at| file.code[at].text == callee && file.word(Some(at + 1)) == "(")?;
-    let text = Text::new(
-        format!("`{caller}` calls itself here, directly or through `{callee}`. GLSL has no recursion."),
-        format!(
-            "関数 `{caller}` がここで (`{callee}` を通じて) 自分自身を呼び出しています。GLSL では再帰呼び出しはできません。"
+    // Of several functions of one name any may be meant, and a macro may hide the call.
+    let bodies = || file.declarations.iter().filter(|d| d.name == caller).filter(is_body);
+    let call_in = |body: &DeclaredName<'_>| {
+        let open = file.closing(body.index + 1)? + 1;
+        let close = file.closing(open)?;
+        (open..close).find(|&at| file.code[at].text == callee && file.word(Some(at + 1)) == "(")
+    };
+    let (body, call) = (bodies().next()?, bodies().find_map(call_in));
+    let text = match caller == callee {
+        true => Text::new(
+            format!("`{caller}` calls itself here. GLSL has no recursion."),
+            format!("関数 `{caller}` がここで自分自身を呼び出しています。GLSL では再帰呼び出しはできません。"),
         ),
-    );
-    let diagnostic = Diagnostic { stage: DiagnosticStage::Link, ..file.error_at(call, text) };
+        false => Text::new(
+            format!("`{caller}` calls itself here, through `{callee}`. GLSL has no recursion."),
+            format!(
+                "関数 `{caller}` がここで、`{callee}` を通じて自分自身を呼び出しています。GLSL では再帰呼び出しはできません。"
+            ),
+        ),
+    };
+    let placed = match call {
+        Some(call) => file.error_at(call, text),
+        None => at(file, body, text),
+    };
+    let diagnostic = Diagnostic { stage: DiagnosticStage::Link, ..placed };
     Some(diagnostic.hint(Text::new("Use a loop instead.", "繰り返しには `for` などのループを使ってください。")))
 }
 

@@ -123,10 +123,16 @@ fn unknown_function(file: &HintContext<'_>, finding: &CompilerMessage<'_, '_>, n
         let hint = Text::new(format!("It is written {text}."), format!("{text} と書きます。"));
         matches!(name, "elseif" | "elsif" | "elif").then_some(hint)
     };
-    let hint = suggestions::from_elsewhere(file, name).or_else(otherwise).or_else(|| {
-        let meant = vocabulary::nearest(name, vocabulary::callables().chain(functions()))?;
-        Some(suggestions::did_you_mean(file, meant, usize::MAX - 1))
-    });
+    let handed_out = || file.interface.functions.iter().map(String::as_str);
+    // Of names that are as near, a student's own is meant rather than one of GLSL.
+    let nearest = || vocabulary::nearest(name, functions().chain(handed_out()).chain(vocabulary::callables()));
+    let hint = suggestions::from_elsewhere(file, name)
+        .or_else(otherwise)
+        .or_else(|| handed_out().any(|own| own == name).then(|| suggestions::deleted_function(name)))
+        .or_else(|| {
+            let meant = nearest().or_else(|| vocabulary::of_one_word(name, functions()))?;
+            Some(suggestions::did_you_mean(file, name, meant, usize::MAX - 1))
+        });
     let diagnostic = place(file, finding, name, text);
     match hint {
         Some(hint) => diagnostic.hint(hint),

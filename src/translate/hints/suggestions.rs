@@ -17,7 +17,7 @@ pub fn hint_for_variable(file: &HintContext<'_>, finding: &CompilerMessage<'_, '
         .or_else(|| of_interface(file, name))
         .or_else(|| file.anywhere(name).map(|d| out_of_reach(file, d, offset)))
         .or_else(|| (assigned && used_again).then(|| type_missing(name)))
-        .or_else(|| vocabulary::nearest(name, known()).map(|meant| did_you_mean(file, meant, offset)))
+        .or_else(|| vocabulary::nearest(name, known()).map(|meant| did_you_mean(file, name, meant, offset)))
         .or_else(|| attribute_by_role(file, name))
         .or_else(|| assigned.then(|| type_missing(name)))
         .unwrap_or_else(|| {
@@ -41,7 +41,7 @@ fn type_missing(name: &str) -> Text {
     )
 }
 
-pub fn did_you_mean(file: &HintContext<'_>, meant: &str, offset: usize) -> Text {
+pub fn did_you_mean(file: &HintContext<'_>, name: &str, meant: &str, offset: usize) -> Text {
     match file.visible(meant, offset) {
         Some(declaration) => {
             let line = file.line(declaration.start);
@@ -50,11 +50,20 @@ pub fn did_you_mean(file: &HintContext<'_>, meant: &str, offset: usize) -> Text 
                 format!("{line} 行目で宣言されている `{meant}` の間違いではありませんか。"),
             )
         }
-        None => Text::new(
+        None if meant.eq_ignore_ascii_case(name) => Text::new(
             format!("Did you mean `{meant}`? Capital and small letters differ in GLSL."),
             format!("`{meant}` の間違いではありませんか。GLSL では大文字と小文字を区別します。"),
         ),
+        None => Text::new(format!("Did you mean `{meant}`?"), format!("`{meant}` の間違いではありませんか。")),
     }
+}
+
+/// For a function of the handed-out file that the file has no more.
+pub fn deleted_function(name: &str) -> Text {
+    Text::new(
+        format!("The handed-out file defines the function `{name}`. Was it deleted?"),
+        format!("配布されたファイルでは関数 `{name}` が定義されています。その定義を消していませんか。"),
+    )
 }
 
 fn out_of_reach(file: &HintContext<'_>, declaration: &DeclaredName<'_>, offset: usize) -> Text {
@@ -125,6 +134,9 @@ fn attributes(file: &HintContext<'_>) -> Text {
     )
 }
 
+/// Types of text in other languages.
+const TEXTS: [&str; 3] = ["string", "String", "char"];
+
 /// What to say about a word of an older GLSL or of another language.
 pub fn from_elsewhere(file: &HintContext<'_>, name: &str) -> Option<Text> {
     let (origin, instead) = vocabulary::foreign(name)?;
@@ -139,6 +151,10 @@ pub fn from_elsewhere(file: &HintContext<'_>, name: &str) -> Option<Text> {
         Instead::Word(word) => Text::new(
             format!("{}; GLSL has `{word}`.", from.en),
             format!("{}。GLSL では `{word}` を使います。", from.ja),
+        ),
+        Instead::Nothing if TEXTS.contains(&name) => Text::new(
+            format!("{}; GLSL has no texts, only numbers and truth values.", from.en),
+            format!("{}。GLSL には文字や文字列の型がなく、扱えるのは数と真偽値だけです。", from.ja),
         ),
         Instead::Nothing => Text::new(format!("{}.", from.en), format!("{}。", from.ja)),
         Instead::Interface if origin == Origin::Fragment => {

@@ -52,6 +52,7 @@ pub fn interface() -> LinkedInterface {
         uniforms: vec![variable("mv", "mat4"), variable("mvp", "mat4")],
         outputs: vec![variable("colour", "vec4")],
         constants: ["lightPosition", "lightAmbient", "shine"].map(str::to_owned).to_vec(),
+        functions: ["unit", "halfway"].map(str::to_owned).to_vec(),
         placed: Vec::new(),
         version: "#version 410 core".to_owned(),
         alike: None,

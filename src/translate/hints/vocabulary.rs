@@ -116,7 +116,7 @@ const FOREIGN: [(Origin, &str); 4] = [
     ),
     (
         Origin::C,
-        "new delete malloc printf cout std string char auto nullptr NULL let var def function and=&& or=|| TRUE=true FALSE=false True=true False=false \
+        "new delete malloc printf cout std string String char boolean=bool Boolean=bool auto nullptr NULL let var def function and=&& or=|| TRUE=true FALSE=false True=true False=false \
          powf=pow sqrtf=sqrt fabs=abs fabsf=abs fmax=max fmaxf=max fmin=min fminf=min sinf=sin cosf=cos glm=vec3 fmodf=mod \
          size_t=int power=pow maximum=max minimum=min Vector3=vec3 Vector4=vec4 Matrix4=mat4 Vec3=vec3 Vec4=vec4 Mat4=mat4",
     ),
@@ -161,6 +161,29 @@ pub fn nearest<'a>(word: &str, known: impl Iterator<Item = &'a str>) -> Option<&
     best.map(|(_, candidate)| candidate)
 }
 
+/// The only one of `known` that has a word in common with `word`, as `normalAt` with `get_normal`.
+pub fn of_one_word<'a>(word: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a str> {
+    /// Shorter ones say little: `to`, `at`, `get`.
+    const LEAST_LETTERS: usize = 4;
+    let words = |name: &str| -> Vec<String> {
+        let mut words = vec![String::new()];
+        for letter in name.chars() {
+            if letter == '_' || letter.is_uppercase() {
+                words.push(String::new());
+            }
+            if let Some(last) = words.last_mut().filter(|_| letter != '_') {
+                last.extend(letter.to_lowercase());
+            }
+        }
+        words.retain(|word| word.len() >= LEAST_LETTERS);
+        words
+    };
+    let own = words(word);
+    let mut shared = known.filter(|known| words(known).iter().any(|word| own.contains(word)));
+    let one = shared.next()?;
+    shared.all(|other| other == one).then_some(one)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -182,6 +205,14 @@ mod tests {
         ] {
             assert_eq!(nearest(word, known()), meant, "{word}");
         }
+    }
+
+    #[test]
+    fn a_word_in_common_tells_what_was_meant_where_only_one_has_it() {
+        let known = ["normalAt", "scene", "sphere_at", "fog"];
+        assert_eq!(of_one_word("get_normal", known.into_iter()), Some("normalAt"));
+        assert_eq!(of_one_word("fogAt", known.into_iter()), None);
+        assert_eq!(of_one_word("sphereColor", ["sphereAt", "sphereEdge"].into_iter()), None);
     }
 
     #[test]

@@ -57,6 +57,7 @@ impl Homework {
             uniforms: first.uniforms.iter().map(variable).chain(self.textures.iter().map(sampler)).collect(),
             outputs: vec![Variable { name: "colour".into(), ty: "vec4".into() }],
             constants: Vec::new(),
+            functions: Vec::new(),
             placed: Vec::new(),
             version: "#version 410 core".to_owned(),
             alike: None,

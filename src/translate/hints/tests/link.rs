@@ -7,7 +7,13 @@ use crate::translate::{LinkedInterface, Variable};
 const CASES: &[HintCase] = &[
     ("out vec4 colour", "vec4 §colour", "not declared as an output", "出力変数 (`out`)"),
     ("void main", "void §Main", "no function `main`|`Main`", "`main`|`Main`"),
-    ("  return normalize(a.xyz);", "  return §unit(a);", "calls itself|recursion", "再帰"),
+    ("  return normalize(a.xyz);", "  return §unit(a);", "`unit` calls itself here|recursion", "再帰"),
+    (
+        "vec3 unit(vec4 a)\n{",
+        "vec3 unit(vec3 a) { return a; }\nvec3 unit(vec4 a)\n{\n  vec3 b = §unit(a);",
+        "calls itself|recursion",
+        "再帰",
+    ),
     ("out vec4 colour", "flat out vec4 §colour", "`flat`", "`flat`"),
     ("out vec4 colour;", "out Data { vec4 §colour; };", "no output `colour`", "出力変数 `colour` がありません"),
     ("a.xyz", "a.§xyz2", "`2`", "`2`"),
