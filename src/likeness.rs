@@ -126,23 +126,32 @@ impl Likeness {
         for (place, prints) in own.iter().enumerate() {
             prints.iter().for_each(|print| holders.entry(*print).or_default().push(place));
         }
-        let mut shared: HashMap<(usize, usize), usize> = HashMap::new();
-        for places in holders.values() {
-            for (at, first) in places.iter().enumerate().filter(|(_, first)| **first < class) {
-                places[at + 1..].iter().for_each(|second| *shared.entry((*first, *second)).or_default() += 1);
+        let same_text = same_text(answers);
+        // Of one answer after the other: of a class of 10,000, all pairs that have anything in common are tens of millions.
+        let mut shared = vec![0; answers.len()];
+        let mut pairs = Vec::new();
+        for first in 0..class.min(answers.len()) {
+            let behind = |places: &'_ [usize]| places.partition_point(|place| *place <= first);
+            let alike = answers[first].text.and_then(|text| same_text.get(&text));
+            let mut met: Vec<usize> = alike.map(|places| places[behind(places)..].to_vec()).unwrap_or_default();
+            for places in own[first].iter().filter_map(|print| holders.get(print)) {
+                for &second in &places[behind(places)..] {
+                    shared[second] += 1;
+                    // Fewer are told of nobody but of the same text.
+                    if shared[second] == FEWEST {
+                        met.push(second);
+                    }
+                }
             }
-        }
-        for places in same_text(answers) {
-            for (at, first) in places.iter().enumerate().filter(|(_, first)| **first < class) {
-                places[at + 1..].iter().for_each(|second| *shared.entry((*first, *second)).or_default() += 0);
+            met.sort_unstable();
+            met.dedup();
+            for second in met {
+                let all = own[first].len() + own[second].len() - shared[second];
+                let pair = Pair::of((&answers[first], &answers[second]), shared[second], all);
+                pairs.extend(pair.is_told().then_some(Pair { places: (first, second), ..pair }));
             }
+            shared[first..].fill(0);
         }
-        let pair = |(places, shared): ((usize, usize), usize)| {
-            let all = own[places.0].len() + own[places.1].len() - shared;
-            let pair = Pair::of((&answers[places.0], &answers[places.1]), shared, all);
-            pair.is_told().then_some(Pair { places, ..pair })
-        };
-        let mut pairs: Vec<Pair> = shared.into_iter().filter_map(pair).collect();
         pairs.sort_by(|a, b| {
             b.share.total_cmp(&a.share).then(b.shared.cmp(&a.shared)).then_with(|| a.places.cmp(&b.places))
         });
@@ -188,15 +197,15 @@ fn common(answers: &[Answer]) -> HashSet<u64> {
     counts.into_iter().filter(|(_, count)| *count > most).map(|(print, _)| print).collect()
 }
 
-/// The places of answers whose whole text is the same, each group in order.
-fn same_text(answers: &[Answer]) -> Vec<Vec<usize>> {
+/// The places of answers whose whole text is the same, by its digest, each group in order.
+fn same_text(answers: &[Answer]) -> HashMap<[u8; 32], Vec<usize>> {
     let mut groups: HashMap<[u8; 32], Vec<usize>> = HashMap::new();
     for (place, answer) in answers.iter().enumerate() {
         if let Some(text) = answer.text {
             groups.entry(text).or_default().push(place);
         }
     }
-    groups.into_values().collect()
+    groups
 }
 
 fn digest<'a>(parts: impl Iterator<Item = &'a str>, between: &str) -> [u8; 32] {

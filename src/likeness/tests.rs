@@ -127,6 +127,30 @@ fn the_hand_out_and_the_common_right_answer_are_nobodys_own() {
 }
 
 #[test]
+fn the_pairs_are_those_that_are_found_by_holding_each_against_each() {
+    let likeness = ggsample06();
+    let samples: Vec<Source> = answers().into_iter().map(|(_, sample)| sample).step_by(3).collect();
+    let copies: Vec<Source> = samples.iter().step_by(2).map(|sample| source(&hidden(sample))).collect();
+    let all = samples.iter().chain(&copies).chain(samples.iter().step_by(5));
+    let read: Vec<Answer> = all.map(|source| likeness.read(std::slice::from_ref(source))).collect();
+    let class = samples.len() + copies.len() / 2;
+    let common = common(&read);
+    let prints: Vec<HashSet<u64>> = read.iter().map(|answer| answer.prints(&common)).collect();
+    let each = (0..class).flat_map(|one| (one + 1..read.len()).map(move |other| (one, other)));
+    let pair = |places: (usize, usize)| {
+        let (a, b) = (&prints[places.0], &prints[places.1]);
+        let shared = a.intersection(b).count();
+        let pair = Pair::of((&read[places.0], &read[places.1]), shared, a.len() + b.len() - shared);
+        pair.is_told().then_some(Pair { places, ..pair })
+    };
+    let expected: Vec<Pair> = each.filter_map(pair).collect();
+    assert!(expected.len() > 20, "{}", expected.len());
+    let mut found = likeness.pairs(&read, class);
+    found.sort_by_key(|pair| pair.places);
+    assert_eq!(found, expected);
+}
+
+#[test]
 fn what_a_tenth_of_the_class_has_is_anybodys_and_earlier_answers_are_held_against_the_class_alone() {
     let likeness = ggsample06();
     let (_, sample) = answers().into_iter().find(|(name, _)| name == "half-angle-squared-forty-times").unwrap();
