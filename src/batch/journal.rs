@@ -263,6 +263,17 @@ mod tests {
     }
 
     #[test]
+    fn a_number_is_read_to_its_last_digit() {
+        let (_place, folder) = folder();
+        let mut report = samples::wrong();
+        // Met in the values of a file that raises a small number to a power.
+        report.elapsed_ms = 1.769_599_999_999_999_6e-40;
+        let record = record("small", Outcome::Graded(Box::new(report)));
+        write(&folder, &header(), &[record.view()]).unwrap();
+        assert_eq!(read(&folder.at(NAME)).unwrap().records, [record]);
+    }
+
+    #[test]
     fn wherever_the_last_line_is_torn_the_others_are_read() {
         let (_place, folder) = folder();
         let [one, two] = ["one", "two"].map(|key| record(key, Outcome::NotGraded(Text::verbatim("無し"))));
