@@ -88,6 +88,23 @@ fn brightness(frame: &Frame) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::report::{Hypothesis, TermPictures};
+
+    #[test]
+    fn a_wrong_answer_shares_the_terms_that_it_computes_as_it_should() {
+        let assignment = reference::assignment("ggsample06").unwrap();
+        let right = term_pictures(assignment, Some(&[]), None);
+        let slip = Hypothesis { id: "specular-half-unnormalized".into(), form: 0, parameter: None };
+        let wrong = term_pictures(assignment, Some(&[slip]), None);
+        assert_eq!(right.len(), wrong.len());
+        let is_shared = |(right, wrong): (&TermPictures, &TermPictures)| {
+            let yours = wrong.yours.as_ref().expect("it is explained");
+            Arc::ptr_eq(&right.expected, &wrong.expected) && Arc::ptr_eq(&wrong.expected, yours)
+        };
+        let shared = right.iter().zip(&*wrong).map(is_shared);
+        let is_highlight = right.iter().map(|term| term.id == "specular");
+        assert!(shared.zip(is_highlight).all(|(is_shared, is_highlight)| is_shared != is_highlight));
+    }
 
     #[test]
     fn the_pose_shows_every_term() {

@@ -2,8 +2,10 @@
 
 use crate::fault::Fault;
 use crate::pictures::{expected_pictures, telling_pose};
+use crate::report::html::PictureCache;
 use crate::report::{Picture, pictures};
 use reference::Assignment;
+use std::sync::Arc;
 
 /// Pixels of the frame that become one of the portrait, across and down.
 const REDUCTION: u32 = 4;
@@ -26,9 +28,11 @@ impl Portraits {
         Ok(Self { pose, expected: pictures::png(&reduced(&right))? })
     }
 
-    /// The portrait in the frames of all poses; none where there are none.
-    pub fn of(&self, frames: &[Picture]) -> Result<Option<Vec<u8>>, Fault> {
-        frames.get(self.pose).map(|frame| pictures::png(&reduced(frame))).transpose()
+    /// The portrait in the frames of all poses; none where there are none. Gradings that share their frames have one portrait.
+    pub fn of(&self, frames: &Arc<[Picture]>) -> Result<Option<Vec<u8>>, Fault> {
+        static MADE: PictureCache<[Picture], usize, Vec<u8>> = PictureCache::new();
+        let Some(frame) = frames.get(self.pose) else { return Ok(None) };
+        MADE.get(frames, self.pose, || pictures::png(&reduced(frame))).map(Some)
     }
 }
 
@@ -87,10 +91,10 @@ mod tests {
     fn every_portrait_has_the_size_of_the_right_one() {
         let assignment = reference::assignment("ggsample06").unwrap();
         let portraits = Portraits::new(assignment).unwrap();
-        let frames = vec![picture(640, 480, |_, _| 7); 25];
+        let frames: Arc<[Picture]> = vec![picture(640, 480, |_, _| 7); 25].into();
         let size = |png: &[u8]| image::load_from_memory(png).map(|image| (image.width(), image.height())).unwrap();
         assert_eq!(size(&portraits.expected), (160, 120));
         assert_eq!(size(&portraits.of(&frames).unwrap().unwrap()), (160, 120));
-        assert_eq!(portraits.of(&[]).unwrap(), None);
+        assert_eq!(portraits.of(&Arc::default()).unwrap(), None);
     }
 }

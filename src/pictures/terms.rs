@@ -104,14 +104,28 @@ impl<'a> Terms<'a> {
     /// All of them, drawn. Those of right answers are drawn once a process.
     pub fn pictures(&self) -> Arc<[TermPictures]> {
         static RIGHT: DrawnOnce<TermPictures> = DrawnOnce::empty();
+        if self.is_right {
+            return RIGHT.of(self.assignment, || self.drawn(&[]));
+        }
+        let right = || Terms::of(self.assignment, Some(&[]), None).drawn(&[]);
+        self.drawn(&RIGHT.of(self.assignment, right))
+    }
+
+    /// All of them; what `known` shows at the same pose is taken from there, for most wrong answers compute most terms as they should.
+    fn drawn(&self, known: &[TermPictures]) -> Arc<[TermPictures]> {
         let pictures = |scene: TermScene<'_>| {
-            let expected = self.expected(&scene)?;
-            // Most wrong answers compute most terms as they should: such a term is drawn once.
-            let yours = if scene.is_same == Some(true) { Some(expected.clone()) } else { self.yours(&scene) };
+            let known = known.iter().find(|term| term.id == scene.id() && term.t == scene.t());
+            let expected = match known {
+                Some(term) => Arc::clone(&term.expected),
+                None => Arc::new(self.expected(&scene)?),
+            };
+            let yours = match scene.is_same {
+                Some(true) => Some(Arc::clone(&expected)),
+                _ => self.yours(&scene).map(Arc::new),
+            };
             Some(TermPictures { id: scene.id().to_owned(), t: scene.t(), yours, expected })
         };
-        let draw = || self.scenes().into_iter().filter_map(pictures).collect();
-        if self.is_right { RIGHT.of(self.assignment, draw) } else { draw() }
+        self.scenes().into_iter().filter_map(pictures).collect()
     }
 }
 

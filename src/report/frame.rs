@@ -227,9 +227,9 @@ pub struct TermPictures {
     /// Fraction of the animation cycle, in [0, 1).
     pub t: f64,
     /// The term as the student's shader computes it, where a known mistake explains it.
-    pub yours: Option<Picture>,
-    /// The term as a right answer computes it.
-    pub expected: Picture,
+    pub yours: Option<Arc<Picture>>,
+    /// The term as a right answer computes it; most of what is handed in shares it.
+    pub expected: Arc<Picture>,
 }
 
 #[cfg(test)]

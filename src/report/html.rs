@@ -14,6 +14,7 @@ mod sheet;
 mod shots;
 mod values;
 
+pub(crate) use self::cache::PictureCache;
 pub use self::film::{Film, FilmUse, PictureAddresses, TermFilm, expected_sheet};
 pub use self::mark::Mark;
 pub use self::motion::Motion;

@@ -245,8 +245,8 @@ pub(crate) fn pictures() -> Pictures {
         terms: Arc::new([TermPictures {
             id: "specular".into(),
             t: 0.48,
-            yours: Some(triangle(12, 30)),
-            expected: triangle(12, 90),
+            yours: Some(Arc::new(triangle(12, 30))),
+            expected: Arc::new(triangle(12, 90)),
         }]),
         cycle: 5.0,
     }

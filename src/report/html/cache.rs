@@ -4,7 +4,7 @@ use crate::fault::Fault;
 use std::sync::{Arc, Mutex, PoisonError, Weak};
 
 /// Things made of shared pictures, in variants that `N` tells apart, for as long as somebody has these pictures.
-pub(super) struct PictureCache<K: ?Sized, N, V> {
+pub(crate) struct PictureCache<K: ?Sized, N, V> {
     /// Of which pictures, in which variant, and what was made.
     made: Mutex<Vec<(Weak<K>, N, V)>>,
 }

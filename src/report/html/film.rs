@@ -108,17 +108,18 @@ impl Film {
 
     /// Where a page that holds all pictures itself finds them. `still`: the PNG of a single frame.
     pub fn embedded(&self, pictures: &Pictures, still: Option<Vec<u8>>) -> Result<PictureAddresses, Fault> {
-        static TERMS: PictureCache<[TermPictures], (), Arc<[TermFilm]>> = PictureCache::new();
-        let address = |picture: &Picture| {
-            let whole = Raster::opaque(picture)?;
-            let png = encode_small(&whole)?;
-            Ok::<_, Fault>(inline(&if png.len() > BUDGET_OF_TERM { encode_small(&whole.reduced(2))? } else { png }))
+        static MADE: PictureCache<Picture, (), Arc<str>> = PictureCache::new();
+        let address = |picture: &Arc<Picture>| {
+            MADE.get(picture, (), || {
+                let whole = Raster::opaque(picture)?;
+                let png = encode_small(&whole)?;
+                let png = if png.len() > BUDGET_OF_TERM { encode_small(&whole.reduced(2))? } else { png };
+                Ok(inline(&png).into())
+            })
         };
         let term = |term: &TermPictures| {
-            let expected = address(&term.expected)?;
-            let own = |yours: &Picture| if *yours == term.expected { Ok(expected.clone()) } else { address(yours) };
-            let yours = term.yours.as_ref().map(own).transpose()?;
-            Ok(TermFilm { id: term.id.clone(), t: term.t, yours, expected })
+            let yours = term.yours.as_ref().map(address).transpose()?;
+            Ok::<_, Fault>(TermFilm { id: term.id.clone(), t: term.t, yours, expected: address(&term.expected)? })
         };
         Ok(PictureAddresses {
             yours: inline(&self.yours),
@@ -126,7 +127,7 @@ impl Film {
             difference: inline(&self.difference),
             is_reduced: self.is_reduced,
             still: still.map(|png| inline(&png)),
-            terms: TERMS.get(&pictures.terms, (), || pictures.terms.iter().map(term).collect())?,
+            terms: pictures.terms.iter().map(term).collect::<Result<_, _>>()?,
         })
     }
 }
@@ -210,9 +211,9 @@ pub struct TermFilm {
     /// Fraction of the animation cycle, in [0, 1).
     pub t: f64,
     /// As the student's shader computes it, where a known mistake explains it.
-    pub yours: Option<String>,
+    pub yours: Option<Arc<str>>,
     /// As a right answer computes it.
-    pub expected: String,
+    pub expected: Arc<str>,
 }
 
 #[cfg(test)]

@@ -22,7 +22,7 @@ pub(super) fn addresses(state: &State, id: &str, report: &Report, sources: &[Sou
     // Another seed may explain the file in another way: a browser does not keep these pictures for those.
     let seed = report.probes.seed;
     let name = |term: &str, whose: &str| frame::picture(Some(&state.assignment), id, &format!("terms/{term}-{whose}"));
-    let address = |term: &str, whose| format!("{}&seed={seed}", name(term, whose));
+    let address = |term: &str, whose| format!("{}&seed={seed}", name(term, whose)).into();
     let scenes = terms.scenes();
     let terms = scenes.iter().map(|scene| TermFilm {
         id: scene.id().to_owned(),
