@@ -131,6 +131,11 @@ impl Grader {
         })
     }
 
+    /// Gives back what the last grading leaves for the next, where none may follow for long.
+    pub fn put_away(&mut self) {
+        self.renderer.put_away();
+    }
+
     /// Grades one hand-in.
     pub fn grade(&mut self, hand_in: &HandIn, order: Order) -> Result<Graded, Fault> {
         self.grade_in_two(hand_in, order, &mut || ())

@@ -50,6 +50,11 @@ impl Records<'_> {
 }
 
 impl Painter {
+    /// Gives back the memory of the frames.
+    pub fn put_away(&mut self) {
+        self.target = None;
+    }
+
     /// Paints the frames of a scene with a fragment stage, to be read back from the target.
     pub fn submit(
         &mut self,

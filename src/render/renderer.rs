@@ -72,6 +72,13 @@ impl Renderer {
         }
     }
 
+    /// Gives back the memory of the last submission's frames, which the next one makes anew in some milliseconds.
+    pub fn put_away(&mut self) {
+        self.painter.put_away();
+        // What is dropped is freed when the device is asked next.
+        let _ = self.device.device.poll(wgpu::PollType::Poll);
+    }
+
     /// Draws the scene with the shader and the fixed fragment stage. An error is ours: the shader was found valid before.
     pub fn render(&mut self, shader: &Shader, scene: &RenderScene) -> Result<Rendering, Fault> {
         let (capture, rendering) = self.run(shader, scene)?;

@@ -9,6 +9,7 @@ use super::protocol::{Answered, Demand, FileHead, GradingRequest, Hello, Load, R
 use super::{JUDGING, WorkerLimits, check, syscalls};
 use crate::expected::{self, Pack};
 use crate::fault::Fault;
+use crate::ffi::allocator;
 use crate::grade::{self, Graded, Grader, Order};
 use crate::language::Text;
 use crate::render::{AdapterKind, Device, Frames};
@@ -147,6 +148,9 @@ impl ReadyWorker {
         let mut grader = Grader::new(self.device.clone(), Arc::clone(&assignment), expected)?;
         if load.warm_up {
             grader.grade(&grade::handed_out(&assignment), Order::default())?;
+            // A spare may wait for hours, and of several homeworks most do: frames and what the compilers freed are 20 MB.
+            grader.put_away();
+            allocator::trim();
         }
         self.graders.insert(assignment.digest.clone(), grader);
         Ok(pack)
