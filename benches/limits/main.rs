@@ -110,6 +110,7 @@ fn rows(size: Size) -> Vec<Row> {
         Row::mebibytes("memory-with-spare", memory.with_spare),
         Row::ratio("memory-growth", memory.growth, 1.05),
     ]);
+    rows.extend(memory.shared_once.map(|most| Row::at_most("memory-shared-once", "MiB", most, 450.0)));
     if let Some(times) = measure::script(&shaders[..size.commands], large.cpu / size.class as f64) {
         rows.push(Row::at_least("script", "times", times, 10.0));
     }

@@ -173,12 +173,14 @@ pub fn command(submissions: &[Submission]) -> f64 {
     median(times.collect())
 }
 
-/// Resident memory of parent and workers.
+/// Memory of parent and workers.
 pub struct Memory {
-    /// The most at any time, in MiB: of the parent and the two largest workers.
+    /// The most that is resident at any time, in MiB: of the parent and the two largest workers.
     pub most: f64,
     /// The same with the worker that is kept ready.
     pub with_spare: f64,
+    /// The same where a page that several processes share counts once; none where the kernel does not tell who asks.
+    pub shared_once: Option<f64>,
     /// That of the last tenth as a multiple of that of the second tenth.
     pub growth: f64,
 }
@@ -190,38 +192,53 @@ pub fn memory(submissions: &[Submission], count: usize) -> Memory {
     let step = (count / 200).max(1);
     grade_all(&pool, submissions, count, |done| {
         if done % step == 0 {
-            let mut workers = children();
+            let children = children();
+            let mut workers: Vec<f64> = children.iter().map(|process| resident(process)).collect();
             workers.sort_by(f64::total_cmp);
             let parent = resident("self");
             let all = parent + workers.iter().sum::<f64>();
             let two = parent + workers.iter().rev().take(WORKERS).sum::<f64>();
-            readings.lock().expect("no thread panicked").push((done, two, all));
+            let processes = children.iter().map(String::as_str).chain(["self"]);
+            let shares = processes.map(share).collect::<Option<Vec<f64>>>();
+            let shared_once = shares.map(|shares| shares.iter().sum::<f64>());
+            readings.lock().expect("no thread panicked").push((done, two, all, shared_once));
         }
     });
     let readings = readings.into_inner().expect("no thread panicked");
     let mean = |from: usize, to: usize| {
         let these: Vec<f64> =
-            readings.iter().filter(|(done, ..)| (from..=to).contains(done)).map(|(_, two, _)| *two).collect();
+            readings.iter().filter(|(done, ..)| (from..=to).contains(done)).map(|(_, two, ..)| *two).collect();
         these.iter().sum::<f64>() / these.len().max(1) as f64
     };
-    let most = readings.iter().map(|(_, two, _)| *two).fold(0.0, f64::max);
-    let with_spare = readings.iter().map(|(_, _, all)| *all).fold(0.0, f64::max);
-    Memory { most, with_spare, growth: mean(count - count / 10, count) / mean(count / 10, count / 5) }
+    let most = readings.iter().map(|(_, two, ..)| *two).fold(0.0, f64::max);
+    let with_spare = readings.iter().map(|(_, _, all, _)| *all).fold(0.0, f64::max);
+    // A worker that ends while it is looked at has no figure.
+    let shared_once = readings.iter().filter_map(|(.., shared_once)| *shared_once).reduce(f64::max);
+    let growth = mean(count - count / 10, count) / mean(count / 10, count / 5);
+    Memory { most, with_spare, shared_once, growth }
 }
 
 /// Resident MiB of a process.
 fn resident(process: &str) -> f64 {
-    let text = std::fs::read_to_string(format!("/proc/{process}/status")).unwrap_or_default();
-    let line = text.lines().find_map(|line| line.strip_prefix("VmRSS:"));
-    let kilobytes = line.and_then(|line| line.trim().trim_end_matches(" kB").parse::<f64>().ok());
-    kilobytes.unwrap_or(0.0) / 1024.0
+    mebibytes(process, "status", "VmRSS:").unwrap_or(0.0)
 }
 
-/// Resident MiB of each process that this one started.
-fn children() -> Vec<f64> {
+/// MiB of a process where a page that so many processes have counts as so manieth part for each. Only root may ask of a worker.
+fn share(process: &str) -> Option<f64> {
+    mebibytes(process, "smaps_rollup", "Pss:")
+}
+
+fn mebibytes(process: &str, file: &str, name: &str) -> Option<f64> {
+    let text = std::fs::read_to_string(format!("/proc/{process}/{file}")).ok()?;
+    let line = text.lines().find_map(|line| line.strip_prefix(name))?;
+    Some(line.trim().trim_end_matches(" kB").parse::<f64>().ok()? / 1024.0)
+}
+
+/// Each process that this one started.
+fn children() -> Vec<String> {
     let tasks = std::fs::read_dir("/proc/self/task").into_iter().flatten().flatten();
     let lists = tasks.filter_map(|task| std::fs::read_to_string(task.path().join("children")).ok());
-    lists.flat_map(|list| list.split_whitespace().map(resident).collect::<Vec<_>>()).collect()
+    lists.flat_map(|list| list.split_whitespace().map(str::to_owned).collect::<Vec<_>>()).collect()
 }
 
 /// How many times the cost of a grading a script with one OpenGL context a file has, where one is named: the command

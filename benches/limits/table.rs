@@ -10,7 +10,7 @@ const END: &str = "<!-- end of table -->";
 const TOLERANCE: f64 = 1.25;
 
 /// What each figure is.
-const MEANINGS: [(&str, &str); 30] = [
+const MEANINGS: [(&str, &str); 31] = [
     ("bare-driver", "CPU time of the bare driver for one submission, median"),
     ("grade", "CPU time of a whole grading in one process, in turns with the above"),
     ("grade-to-bare", "the one against the other"),
@@ -49,7 +49,11 @@ const MEANINGS: [(&str, &str); 30] = [
     ("command", "`ggrade grade FILE` by the clock, median"),
     ("memory", "resident memory of parent and two workers, the most at any time; what they share counts for each"),
     ("memory-with-spare", "the same with the worker that is kept ready"),
-    ("memory-growth", "mean of the last tenth of these against that of the second"),
+    ("memory-growth", "mean of the last tenth of the first of these against that of the second"),
+    (
+        "memory-shared-once",
+        "memory of parent, two workers and the one that is kept ready, the most at any time; what they share counts once (`Pss`)",
+    ),
 ];
 
 /// One figure.
