@@ -151,7 +151,12 @@ fn a_solution_that_does_not_compile_is_named_by_its_line() {
 fn a_solution_of_undefined_values_is_refused() {
     let copy = Copy::new().replace("solution.vert", "float lambert = max(nl, 0.0);", "float lambert = pow(nl, 2.0);");
     let line = copy.line("solution.vert", "pow(nl, 2.0)");
-    copy.is_refused("solution.vert", Some(line), "is undefined, or no number: look at", "未定義か、数になりません");
+    copy.is_refused(
+        "solution.vert",
+        Some(line),
+        "is undefined, or no number: GLSL gives `pow` no value",
+        "未定義か、数になりません",
+    );
 }
 
 #[test]

@@ -65,8 +65,8 @@ fn marks_that_do_not_fit_are_named_by_their_line() {
         &["line 5, column 12: `stop` is no mark"],
         "`stop` という印はありません",
     );
-    let used = "#version 330 core\nout vec4 c;\nvec4 f()\n{\n// ggrade: begin\n    vec4 x = vec4(0.2);\n// ggrade: end\n    return x;\n}\nvoid main()\n{\n    c = f();\n}\n";
-    refused("a.frag", used, &["line 8, column 12", "`// ggrade: instead"], "コンパイルできません");
+    let used = "#version 330 core\nout vec4 c;\nvec4 f()\n{\n// ggrade: begin\n    const int x = 3;\n// ggrade: end\n    float a[x];\n    a[0] = 1.0;\n    return vec4(a[0]);\n}\nvoid main()\n{\n    c = f();\n}\n";
+    refused("a.frag", used, &["line 8", "`// ggrade: instead"], "コンパイルできません");
 }
 
 #[test]
