@@ -33,7 +33,7 @@ const SAMPLES: [(&str, usize); 30] = [
     ("gouraud-point-light", 176),
     ("interpolation", 63),
     ("lambert", 131),
-    ("lamp", 19),
+    ("lamp", 20),
     ("maps", 84),
     ("per-pixel", 11),
     ("phong", 190),
@@ -45,7 +45,7 @@ const SAMPLES: [(&str, usize); 30] = [
     ("spot-opengl", 218),
     ("spot-soft", 202),
     ("threshold", 200),
-    ("toon", 22),
+    ("toon", 23),
     ("waves", 13),
 ];
 

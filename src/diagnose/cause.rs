@@ -140,7 +140,7 @@ impl Cause {
     /// leave them their points.
     pub(super) fn unless_absent(self, evidence: &Evidence<'_>, shape: bool) -> Self {
         let Evidence { assignment, probes, .. } = *evidence;
-        if !matches!(self, Self::Known { .. } | Self::Parts(_)) {
+        if !matches!(self, Self::Known { .. } | Self::Parts(_) | Self::Repaired(_)) {
             return self;
         }
         let ids = self.ids();

@@ -9,6 +9,7 @@ mod abrupt;
 mod additive;
 mod blame;
 mod candidates;
+mod chain;
 mod features;
 mod finding;
 mod given;
@@ -226,6 +227,7 @@ fn within<T: Default>(
         trials,
         count: places.len(),
         base: Default::default(),
+        chain: Default::default(),
     };
     if is_right(&wanted, &own, places.len()) {
         return Some(T::default());

@@ -92,12 +92,14 @@ pub enum Operator {
     Raising,
     /// A number is added to it.
     Shifted,
+    /// What it is computed from is right, and it is not.
+    Otherwise,
 }
 
 #[cfg(test)]
 impl Operator {
     /// All of them.
-    pub const ALL: [Self; 34] = [
+    pub const ALL: [Self; 35] = [
         Self::ClampLeftOut,
         Self::NormalizeLeftOut,
         Self::PowerLeftOut,
@@ -132,6 +134,7 @@ impl Operator {
         Self::Scaled,
         Self::Raising,
         Self::Shifted,
+        Self::Otherwise,
     ];
 }
 

@@ -75,6 +75,10 @@ pub(super) fn charged(assignment: &Assignment, terms: &[TermJudgement], repaired
         let charged = if wrong.is_empty() { about } else { wrong };
         return charged.into_iter().map(|line| line.id.clone()).collect();
     }
+    // A change within what a line judges is of that line.
+    if let Some(line) = &repaired.line {
+        return vec![line.clone()];
+    }
     let is_spoilt = |line: &&RubricLine| repaired.touches.contains(&line.judges);
     let lines = || assignment.rubric.iter().filter(is_colour);
     let choices: [Vec<&RubricLine>; 3] = [

@@ -5,7 +5,7 @@ use super::search::Search;
 use super::walk::{made_of, roots};
 use super::{FUEL_OF_TRACE, Stage};
 use crate::diagnose::addends::{ADDED, OVERFLOWING, passes, raised};
-use crate::diagnose::columns::{ScalarColumns, is_constant, is_number, is_same};
+use crate::diagnose::columns::{ScalarColumns, is_constant, is_equal, is_number, is_same};
 use crate::diagnose::trials::StageChanges;
 use glam::DVec3;
 use reference::interpreter::trace::{Event, Trace};
@@ -34,6 +34,29 @@ impl Search<'_, '_> {
         self.lines_with(|search, feature| {
             search.computing(feature).into_iter().any(|(stage, at)| search.adds(stage, at, feature))
         })
+    }
+
+    /// The id of the line whose feature a value is in: of those on the way of whose value it is, the one with the shortest way.
+    pub fn line_around(&self, value: &ScalarColumns) -> Option<String> {
+        let way = |line: usize| {
+            let [(program, stage, site), _] = self.assignment.feature_values(line)?;
+            let mut bench = Bench::new(self.assignment, &program, self.places, self.in_quads, FUEL_OF_TRACE)?;
+            let trace = bench.trace(&StageChanges::default())?.1[stage as usize].take()?;
+            let events: Vec<usize> = (0..trace.events.len()).filter(|at| trace.events[*at].site == site).collect();
+            let way = made_of(&trace, &events);
+            let has_it = way.iter().any(|event| is_equal(&trace.events[*event].values, value));
+            has_it.then_some(way.len())
+        };
+        let rubric = self.assignment.rubric.iter().enumerate();
+        let mut around: Vec<(usize, &str)> =
+            rubric.filter_map(|(number, line)| Some((way(number)?, line.id.as_str()))).collect();
+        around.sort_unstable();
+        match around[..] {
+            [(shortest, id), ref others @ ..] if others.first().is_none_or(|(other, _)| *other > shortest) => {
+                Some(id.to_owned())
+            }
+            _ => None,
+        }
     }
 
     fn lines_with(&self, is_it: impl Fn(&Self, &Feature) -> bool) -> Vec<String> {

@@ -10,6 +10,7 @@ mod repaired;
 
 pub(in crate::diagnose) use repaired::Repaired;
 
+use super::chain::Link;
 use super::search::{Search, is_in_place, is_right};
 use super::{Finding, Place, Seen, Stage, TracedProgram};
 use crate::compare::{COLOUR_TOLERANCE, POSITION_TOLERANCE};
@@ -45,6 +46,8 @@ struct RepairAttempt {
     program: TracedProgram,
     texts: Vec<(Stage, Repairable)>,
     seen: Seen,
+    /// What has to be seen of it while other mistakes are still there, see [`Link::seen`]; none where all has to be right.
+    part: Option<[Seen; 2]>,
 }
 
 impl RepairAttempt {
@@ -56,7 +59,8 @@ impl RepairAttempt {
     fn changes<'t>(&'t self, scope: RepairScope<'t>) -> impl Iterator<Item = RepairStep> {
         scope.lines.iter().flat_map(move |StageLines { stage, lines, near }| {
             let all = self.text(*stage).map(|text| text.repairs(lines, *near, scope.right));
-            let all = all.into_iter().flatten().filter(move |repair| !scope.is_all || repair.is_of_its_line());
+            let is_known = move |repair: &ProgramRepair| scope.aim != RepairAim::Slip || repair.is_of_its_line();
+            let all = all.into_iter().flatten().filter(is_known);
             all.map(|repair| (*stage, repair))
         })
     }
@@ -90,8 +94,18 @@ struct RepairScope<'l> {
     lines: &'l [StageLines],
     right: &'l Ingredients,
     most: usize,
-    /// Whether only one counts that makes all right, and is known to be on its line.
-    is_all: bool,
+    aim: RepairAim,
+}
+
+/// Which changes count.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum RepairAim {
+    /// Those that make more right.
+    More,
+    /// Those that make all right.
+    All,
+    /// Those of them that are known to be on their line.
+    Slip,
 }
 
 impl Search<'_, '_> {
@@ -102,7 +116,7 @@ impl Search<'_, '_> {
             return Vec::new();
         }
         let first = self.first_attempt();
-        let steps = self.steps(&first, findings, goes_on).unwrap_or_default();
+        let (steps, left) = self.steps(&first, findings, goes_on).unwrap_or_default();
         let mut attempt = first;
         let mut found = Vec::new();
         for step in steps {
@@ -115,6 +129,7 @@ impl Search<'_, '_> {
             let Some(next) = self.after(&attempt, &step) else { return Vec::new() };
             attempt = next;
         }
+        found.extend(left.iter().map(|link| self.computed_otherwise(link)));
         found
     }
 
@@ -125,7 +140,7 @@ impl Search<'_, '_> {
         }
         let attempt = self.first_attempt();
         let (lines, right) = (&self.lines(findings), &self.ingredients());
-        match self.step(&attempt, RepairScope { lines, right, most: MOST_SLIPS, is_all: true }) {
+        match self.step(&attempt, RepairScope { lines, right, most: MOST_SLIPS, aim: RepairAim::Slip }) {
             RepairOutcome::Right(step) => Some(self.repaired(&attempt, &step)?.located),
             RepairOutcome::Better(_) => None,
         }
@@ -136,7 +151,7 @@ impl Search<'_, '_> {
             let text = translate::plain_lines(&source.text);
             Some((*stage, Repairable::read(&text, *stage).ok()?))
         });
-        RepairAttempt { program: self.theirs.clone(), texts: texts.collect(), seen: self.own.clone() }
+        RepairAttempt { program: self.theirs.clone(), texts: texts.collect(), seen: self.own.clone(), part: None }
     }
 
     fn ingredients(&self) -> Ingredients {
@@ -150,23 +165,45 @@ impl Search<'_, '_> {
         attempt: &RepairAttempt,
         findings: &[Finding],
         goes_on: &mut dyn FnMut() -> bool,
-    ) -> Option<Vec<RepairStep>> {
+    ) -> Option<(Vec<RepairStep>, &[Link])> {
         let (lines, right) = (&self.lines(findings), &self.ingredients());
-        let scope = RepairScope { lines, right, most: MOST_TRIED, is_all: false };
+        let scope = RepairScope { lines, right, most: MOST_TRIED, aim: RepairAim::More };
         let better = match self.step(attempt, scope) {
-            RepairOutcome::Right(step) => return Some(vec![step]),
+            RepairOutcome::Right(step) => return Some((vec![step], &[])),
             RepairOutcome::Better(better) => better,
         };
         if !goes_on() {
             return None;
         }
-        better.into_iter().take(MOST_BEGINNINGS).find_map(|(first, seen)| {
+        let (steps, left) = self.chained(attempt, right);
+        if !steps.is_empty() && left.is_empty() {
+            return Some((steps, left));
+        }
+        let two = better.into_iter().take(MOST_BEGINNINGS).find_map(|(first, seen)| {
             let next = RepairAttempt { seen, ..self.after(attempt, &first)? };
             match self.step(&next, RepairScope { most: MOST_TRIED_AFTER, ..scope }) {
-                RepairOutcome::Right(second) => Some(vec![first, second]),
+                RepairOutcome::Right(second) => Some((vec![first, second], &[][..])),
                 RepairOutcome::Better(_) => None,
             }
-        })
+        });
+        two.or_else(|| self.are_known(left).then_some((steps, left)))
+    }
+
+    /// A change in each place of several mistakes, as far as there are such: the places after these are left.
+    fn chained(&self, attempt: &RepairAttempt, right: &Ingredients) -> (Vec<RepairStep>, &[Link]) {
+        let links = self.chain();
+        let mut attempt = attempt.clone();
+        let mut steps = Vec::new();
+        for (number, Link { mend, lines, seen, .. }) in links.iter().enumerate() {
+            attempt.part = seen.clone();
+            let lines = [StageLines { stage: mend.stage, lines: lines.clone(), near: 1 }];
+            let scope = RepairScope { lines: &lines, right, most: MOST_TRIED_AFTER, aim: RepairAim::All };
+            let RepairOutcome::Right(step) = self.step(&attempt, scope) else { return (steps, &links[number..]) };
+            let Some(next) = self.after(&attempt, &step) else { return (steps, &links[number..]) };
+            attempt = next;
+            steps.push(step);
+        }
+        (steps, &[])
     }
 
     /// Tries so many changes once.
@@ -176,20 +213,21 @@ impl Search<'_, '_> {
         let first = &self.places[..self.places.len().min(FIRST)];
         let is_worse = |now: &[bool]| before.iter().zip(now).any(|(before, now)| *before && !now);
         let mut verified = 0;
+        let wanted = attempt.part.as_ref().map_or(self.wanted, |[seen, _]| seen);
         for step in attempt.changes(scope).take(scope.most) {
             let Some(program) = attempt.with(&step) else { continue };
             let Some(seen) = self.shown(&program, first, FUEL_OF_FIRST) else { continue };
-            let is_no_use = match scope.is_all {
-                true => !is_right(self.wanted, &seen, first.len()),
-                false => is_worse(&self.right_channels(&seen)),
+            let is_no_use = match scope.aim {
+                RepairAim::All | RepairAim::Slip => !is_right(wanted, &seen, first.len()),
+                RepairAim::More => is_worse(&self.right_channels(&seen)),
             };
             if is_no_use {
                 continue;
             }
             let Some(seen) = self.shown(&program, self.places, FUEL_OF_TRY) else { continue };
-            if is_right(self.wanted, &seen, self.count) {
+            if is_right(wanted, &seen, self.count) {
                 verified += 1;
-                if verified <= MOST_VERIFIED && self.holds_everywhere(&program) {
+                if verified <= MOST_VERIFIED && self.is_verified(attempt, &step, &program) {
                     return RepairOutcome::Right(step);
                 }
                 continue;
@@ -204,8 +242,19 @@ impl Search<'_, '_> {
         RepairOutcome::Better(better.into_iter().map(|(_, step, seen)| (step, seen)).collect())
     }
 
+    /// Whether what makes all right does so at every probe. What is seen with other mistakes is known at the chosen ones only, and is
+    /// looked at without the bounds of a colour, which hide much of it.
+    fn is_verified(&self, attempt: &RepairAttempt, (stage, repair): &RepairStep, program: &TracedProgram) -> bool {
+        let Some([_, unclamped]) = &attempt.part else { return self.holds_everywhere(program) };
+        // What is bounded is bounded alike only where both can be traced.
+        let traced = attempt.text(*stage).and_then(|text| program.with(*stage, text.traced(repair)?));
+        let seen = traced.and_then(|program| self.unclamped(&program, &StageChanges::default()));
+        seen.is_some_and(|seen| is_right(unclamped, &seen, self.count))
+    }
+
     fn after(&self, attempt: &RepairAttempt, step: &RepairStep) -> Option<RepairAttempt> {
-        let mut next = RepairAttempt { program: attempt.with(step)?, ..attempt.clone() };
+        let program = attempt.with(step)?;
+        let mut next = RepairAttempt { program, ..attempt.clone() };
         let (_, text) = next.texts.iter_mut().find(|(own, _)| *own == step.0)?;
         *text = text.with(&step.1);
         Some(next)

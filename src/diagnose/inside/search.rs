@@ -1,12 +1,14 @@
 //! Which value has to be another one for all that is seen to be right.
 
 use super::candidates::Mend;
+use super::chain::Link;
 use super::quantities::Quantity;
 use super::walk::{Suspect, made_of, roots, suspects};
 use super::*;
 use crate::diagnose::trials::{StageChanges, Trials};
 use crate::source::Source;
 use reference::interpreter::{Program, Scalar};
+use std::cell::OnceCell;
 
 /// What makes no difference to a product or a sum.
 pub(super) const ONES: [f64; 2] = [1.0, 0.0];
@@ -28,6 +30,8 @@ pub(super) struct Search<'s, 'a> {
     pub count: usize,
     /// What is changed already.
     pub base: StageChanges,
+    /// The places of several mistakes, once they were looked for.
+    pub chain: OnceCell<Vec<Link>>,
 }
 
 impl Search<'_, '_> {
@@ -39,8 +43,9 @@ impl Search<'_, '_> {
         if let Some(mend) = mend.as_ref().filter(|mend| self.is_telling(mend)) {
             return self.finding(mend).into_iter().collect();
         }
-        // What goes out can always be mended: that is no place. Two places further back are.
-        self.several().iter().filter_map(|mend| self.finding(mend)).collect()
+        // What goes out can always be mended: that is no place. Several places further back are.
+        let apart: Vec<Finding> = self.several().iter().filter_map(|mend| self.finding(mend)).collect();
+        if apart.is_empty() { self.chain().iter().map(|link| link.finding.clone()).collect() } else { apart }
     }
 
     pub fn trace(&self, stage: Stage) -> Option<&Trace> {
@@ -67,7 +72,7 @@ impl Search<'_, '_> {
     pub fn suspects(&self, stage: Stage) -> Vec<Suspect> {
         let Some(trace) = self.trace(stage) else { return Vec::new() };
         let program = self.theirs.stage(stage);
-        suspects(stage, program, trace, self.quantities, &roots(trace))
+        suspects(stage, program, trace, self.quantities, &|_| false)
     }
 
     /// The first place that mends everything by itself, other than one site.
@@ -192,7 +197,7 @@ impl Search<'_, '_> {
     }
 
     /// What was handed out of a stage, and what was handed in.
-    fn texts(&self, stage: Stage) -> Option<(&str, &Source)> {
+    pub fn texts(&self, stage: Stage) -> Option<(&str, &Source)> {
         let starter = self.evidence.assignment.files.iter().find(|file| file.stage == stage)?;
         let (_, source) = self.evidence.sources.iter().find(|(own, _)| *own == stage)?;
         Some((starter.starter_shader(), source))

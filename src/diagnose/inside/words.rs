@@ -89,16 +89,21 @@ impl Finding {
 
     /// With what it should be and what it is at a place, where that can be read.
     fn with_numbers(&self, what: Text) -> Text {
-        let is_short = (1..=4).contains(&self.expected.len());
-        let is_finite = self.expected.iter().chain(&self.found).all(|number| number.is_finite());
-        let [expected, found] = [&self.expected, &self.found].map(|numbers| written(numbers));
-        if !is_short || !is_finite || expected == found {
+        let Some([expected, found]) = self.numbers() else {
             return Text::new(format!("{}.", what.en), format!("{}。", what.ja));
-        }
+        };
         Text::new(
             format!("{}: at one place it should be {expected}, and is {found}.", what.en),
             format!("{}。ある場所では {expected} になるはずですが、{found} になっています。", what.ja),
         )
+    }
+
+    /// What the value should be at a place that shows it, and what it is there; none where it is long, or no number.
+    pub fn numbers(&self) -> Option<[String; 2]> {
+        let is_short = (1..=4).contains(&self.expected.len());
+        let is_finite = self.expected.iter().chain(&self.found).all(|number| number.is_finite());
+        let [expected, found] = [&self.expected, &self.found].map(|numbers| written(numbers));
+        (is_short && is_finite && expected != found).then_some([expected, found])
     }
 }
 

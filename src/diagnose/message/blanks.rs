@@ -88,6 +88,9 @@ impl<'f> Blanks<'f> {
             (Cause::Repaired(_), id) => {
                 let repaired = cause.repairs().find(|repaired| repaired.mistake.id == id);
                 blanks.place(evidence, mistake, repaired.map(|repaired| repaired.located.clone()));
+                if let Some([expected, found]) = repaired.and_then(|repaired| repaired.numbers.clone()) {
+                    blanks.values.extend([("expected", expected), ("found", found)]);
+                }
             }
             (Cause::Known { found, .. }, id) => {
                 let met = evidence.undefined.filter(|line| mistake.undefined_power && *line != NO_LINE);

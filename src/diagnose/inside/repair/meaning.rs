@@ -1,21 +1,24 @@
 //! What a change of the text means: which definition of the right answer it concerns.
 
 use super::{RepairAttempt, RepairStep, Repaired};
-use crate::diagnose::columns::is_same;
+use crate::diagnose::columns::{ScalarColumns, is_colour, is_constant, is_equal, is_same};
+use crate::diagnose::inside::candidates::Mend;
+use crate::diagnose::inside::chain::Link;
 use crate::diagnose::inside::quantities::Quantity;
 use crate::diagnose::inside::search::Search;
-use crate::diagnose::inside::variable;
+use crate::diagnose::inside::{Finding, Flaw, variable};
 use crate::diagnose::locate::{Located, MistakeOrigin};
 use crate::diagnose::trials::{FUEL_OF_TRACE, StageChanges};
+use reference::equation::DISCARDED;
 use reference::interpreter::trace::{Event, Trace, What};
-use reference::interpreter::{Operator, Program, ProgramRepair, Stage};
-use reference::traced::Bench;
+use reference::interpreter::{DISCARD, Operator, Program, ProgramRepair, Stage};
+use reference::traced::{Bench, Seen};
 
 impl Search<'_, '_> {
     /// What is known of a change.
     pub(super) fn repaired(&self, attempt: &RepairAttempt, (stage, repair): &RepairStep) -> Option<Repaired> {
         let marked = attempt.program.with(*stage, attempt.text(*stage)?.traced(repair)?)?;
-        let (_, mut traces) = Bench::new(self.assignment, &marked, self.places, self.in_quads, FUEL_OF_TRACE)?
+        let (seen, mut traces) = Bench::new(self.assignment, &marked, self.places, self.in_quads, FUEL_OF_TRACE)?
             .trace(&StageChanges::default())?;
         let trace = traces[*stage as usize].take()?;
         let program = marked.stage(*stage);
@@ -34,6 +37,7 @@ impl Search<'_, '_> {
                 found => (repair.mistake, found.map(|(name, _)| name)),
             },
         };
+        let definition = definition.or_else(|| self.decides_what_is_drawn(attempt, &seen).then(|| DISCARD.to_owned()));
         let mistake = self.assignment.repaired(operator, definition.as_deref(), repair.is_bound_by_zero);
         let marks = program.sites().iter().position(|site| site.line == ProgramRepair::MARK);
         let name = marks.and_then(|site| variable(program.sites(), site));
@@ -41,8 +45,60 @@ impl Search<'_, '_> {
             mistake,
             located: Located { line: repair.line, name, role: MistakeOrigin::Wrong, stage: Some(*stage) },
             texts: repair.texts.clone(),
+            numbers: None,
+            line: marked_value(program, &trace).and_then(|value| self.line_around(value)),
             touches: definition.map_or_else(Vec::new, |name| self.quantities.spoilt_by(*stage, &name)),
         })
+    }
+
+    /// Whether a place by itself says what is wrong: something is computed there from what is right, and is one of the values of the
+    /// right answer.
+    fn is_known_alone(&self, link: &Link) -> bool {
+        let Finding { is_whole, flaw, serves, .. } = &link.finding;
+        link.is_computed && !is_whole && *flaw == Flaw::Value && serves.is_some()
+    }
+
+    /// Whether places by themselves say what is wrong: each stands on a line of its own.
+    pub(super) fn are_known(&self, links: &[Link]) -> bool {
+        let place = |link: &Link| (link.mend.stage as usize, link.finding.line);
+        let is_twice = |(number, link): (usize, &Link)| links[..number].iter().any(|own| place(own) == place(link));
+        links.iter().all(|link| self.is_known_alone(link)) && !links.iter().enumerate().any(is_twice)
+    }
+
+    /// What is known of a place for which there is no change of the text.
+    pub(super) fn computed_otherwise(&self, Link { mend, finding, .. }: &Link) -> Repaired {
+        let own = finding.quantity.as_ref().or(finding.serves.as_ref());
+        let is_judged = |name: &&String| self.assignment.lines_about(name).next().is_some();
+        let definition = own.filter(is_judged).cloned().or_else(|| self.judged_operand(mend)).or(own.cloned());
+        let written = self.texts(mend.stage).map_or_else(String::new, |(_, source)| source.line(finding.line).into());
+        Repaired {
+            mistake: self.assignment.repaired(Operator::Otherwise, definition.as_deref(), false),
+            located: finding.located(),
+            texts: [written, String::new()],
+            numbers: finding.numbers(),
+            line: mend.values.first().and_then(|value| self.line_around(value)),
+            touches: finding.touches.clone(),
+        }
+    }
+
+    /// The one variable that a value is computed from at once and that a line of the rubric is about.
+    fn judged_operand(&self, mend: &Mend) -> Option<String> {
+        let all = &self.quantities.all;
+        let operands = self.quantities.made_from(&all[mend.quantity?]);
+        let is_operand = |own: &&Quantity| own.turns.iter().any(|turn| operands.iter().any(|one| is_equal(one, turn)));
+        let names = all.iter().filter(is_operand).flat_map(|own| &own.names);
+        let mut judged: Vec<&String> =
+            names.filter(|name| self.assignment.lines_about(name).next().is_some()).collect();
+        judged.sort_unstable();
+        judged.dedup();
+        if let [name] = judged[..] { Some(name.clone()) } else { None }
+    }
+
+    /// Whether a change only decides what is drawn and what is thrown away. `seen`: with it.
+    fn decides_what_is_drawn(&self, attempt: &RepairAttempt, seen: &Seen) -> bool {
+        let Some(before) = self.shown(&attempt.program, self.places, FUEL_OF_TRACE) else { return false };
+        let mut moved = before.colours.iter().zip(&seen.colours).filter(|(a, b)| !is_colour(**a, **b)).peekable();
+        moved.peek().is_some() && moved.all(|(a, b)| (*a == DISCARDED) != (*b == DISCARDED))
     }
 
     /// The definition of the right answer that a value comes to first which is computed from what was changed, and whether it is
@@ -95,6 +151,20 @@ impl Search<'_, '_> {
         };
         self.quantities.all.iter().find(is_it)?.names.first().cloned()
     }
+}
+
+/// The value of what was changed; of a number that of the first thing that is computed from it.
+fn marked_value<'t>(program: &Program, trace: &'t Trace) -> Option<&'t ScalarColumns> {
+    let is_marked = |event: &Event| program.sites()[event.site].line == ProgramRepair::MARK;
+    let last = trace.events.iter().rposition(is_marked)?;
+    let mut is_reached: Vec<bool> = trace.events.iter().map(is_marked).collect();
+    for (number, event) in trace.events.iter().enumerate() {
+        is_reached[number] |= event.from.iter().any(|from| is_reached[*from]);
+        if number >= last && is_reached[number] && !is_constant(&event.values) {
+            return Some(&event.values);
+        }
+    }
+    None
 }
 
 /// Whether a number goes that something is multiplied by, or that is added to it.
