@@ -161,10 +161,8 @@ impl Search<'_, '_> {
             return Kinship::default();
         };
         let sites = self.theirs.stage(mend.stage).sites();
-        let is_called = match &sites[mend.suspect.site].what {
-            What::Assign { name, .. } => quantity.names.contains(name),
-            _ => false,
-        };
+        let what = &sites[mend.suspect.site].what;
+        let is_called = matches!(what, What::Assign { name, .. } if quantity.names.contains(name));
         let own = leaves(trace, event, &|site| &sites[site].what);
         let right = self.quantities.made_from(quantity);
         let way = self.quantities.way(quantity);
@@ -173,7 +171,6 @@ impl Search<'_, '_> {
         let all = own.len() + right.len() - shared.min(right.len());
         let value = &trace.events[event].values;
         // What a variable is given has its next step where the variable is read.
-        let what = &sites[mend.suspect.site].what;
         let is_used = matches!(what, What::Read(_))
             || !matches!(what, What::Assign { .. }) && variable(sites, mend.suspect.site).is_none();
         Kinship {

@@ -5,6 +5,7 @@
 //! beforehand, names the mistake exactly. Where no change does, one that makes more right and nothing wrong is taken, and the
 //! next one is looked for in the text with it.
 
+mod chained;
 mod meaning;
 mod repaired;
 
@@ -189,23 +190,6 @@ impl Search<'_, '_> {
         two.or_else(|| self.are_known(left).then_some((steps, left)))
     }
 
-    /// A change in each place of several mistakes, as far as there are such: the places after these are left.
-    fn chained(&self, attempt: &RepairAttempt, right: &Ingredients) -> (Vec<RepairStep>, &[Link]) {
-        let links = self.chain();
-        let mut attempt = attempt.clone();
-        let mut steps = Vec::new();
-        for (number, Link { mend, lines, seen, .. }) in links.iter().enumerate() {
-            attempt.part = seen.clone();
-            let lines = [StageLines { stage: mend.stage, lines: lines.clone(), near: 1 }];
-            let scope = RepairScope { lines: &lines, right, most: MOST_TRIED_AFTER, aim: RepairAim::All };
-            let RepairOutcome::Right(step) = self.step(&attempt, scope) else { return (steps, &links[number..]) };
-            let Some(next) = self.after(&attempt, &step) else { return (steps, &links[number..]) };
-            attempt = next;
-            steps.push(step);
-        }
-        (steps, &[])
-    }
-
     /// Tries so many changes once.
     fn step(&self, attempt: &RepairAttempt, scope: RepairScope<'_>) -> RepairOutcome {
         let mut better: Vec<(usize, RepairStep, Seen)> = Vec::new();
@@ -242,19 +226,8 @@ impl Search<'_, '_> {
         RepairOutcome::Better(better.into_iter().map(|(_, step, seen)| (step, seen)).collect())
     }
 
-    /// Whether what makes all right does so at every probe. What is seen with other mistakes is known at the chosen ones only, and is
-    /// looked at without the bounds of a colour, which hide much of it.
-    fn is_verified(&self, attempt: &RepairAttempt, (stage, repair): &RepairStep, program: &TracedProgram) -> bool {
-        let Some([_, unclamped]) = &attempt.part else { return self.holds_everywhere(program) };
-        // What is bounded is bounded alike only where both can be traced.
-        let traced = attempt.text(*stage).and_then(|text| program.with(*stage, text.traced(repair)?));
-        let seen = traced.and_then(|program| self.unclamped(&program, &StageChanges::default()));
-        seen.is_some_and(|seen| is_right(unclamped, &seen, self.count))
-    }
-
     fn after(&self, attempt: &RepairAttempt, step: &RepairStep) -> Option<RepairAttempt> {
-        let program = attempt.with(step)?;
-        let mut next = RepairAttempt { program, ..attempt.clone() };
+        let mut next = RepairAttempt { program: attempt.with(step)?, ..attempt.clone() };
         let (_, text) = next.texts.iter_mut().find(|(own, _)| *own == step.0)?;
         *text = text.with(&step.1);
         Some(next)
