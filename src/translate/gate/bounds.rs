@@ -43,12 +43,12 @@ pub(in crate::translate) fn check_module(
         Text::new(
             format!(
                 "the shader has about {} operations when all calls and array accesses are written out, and at most \
-                 {MAX_OPERATIONS} are compiled (limit of the grader); this line has most of them",
+                 {MAX_OPERATIONS} are compiled (limit of the grader); no other line has as many as this one",
                 costs.of_entry
             ),
             format!(
                 "関数呼び出しと配列の参照をすべて展開すると約 {} 個の演算になり、上限の {MAX_OPERATIONS} 個を超えます \
-                 (採点システムの上限)。この行が最も多くを占めています",
+                 (採点システムの上限)。演算が最も多い行はここです",
                 costs.of_entry
             ),
         ),
