@@ -65,7 +65,7 @@ const QUOTED: DisallowedWording = DisallowedWording {
 };
 
 /// Declarations and names that are not allowed, by the beginning of the compiler's message.
-const DECLARATIONS: [DisallowedWording; 14] = [
+const DECLARATIONS: [DisallowedWording; 23] = [
     DisallowedWording {
         says: "Reserved word",
         message: [
@@ -145,6 +145,69 @@ const DECLARATIONS: [DisallowedWording; 14] = [
     DisallowedWording {
         says: "unexpected token",
         message: ["The character `{}` has no meaning in GLSL.", "`{}` は GLSL では使えない文字です。"],
+        hint: NO_HINT,
+    },
+    DisallowedWording {
+        says: "condition must be a scalar integer expression",
+        message: [
+            "A `switch` chooses by an `int` or a `uint`.",
+            "`switch` の条件には `int` か `uint` の値を書きます。",
+        ],
+        hint: [
+            "For other values write `if` and `else`.",
+            "それ以外の値で分けるときは `if` と `else` を使ってください。",
+        ],
+    },
+    DisallowedWording {
+        says: "duplicated value",
+        message: [
+            "Another `case` of this `switch` has the same value.",
+            "この `switch` には同じ値の `case` がもう 1 つあります。",
+        ],
+        hint: NO_HINT,
+    },
+    DisallowedWording {
+        says: "array size must be a constant integer expression",
+        message: [
+            "The length of an array has to be known when the shader is compiled.",
+            "配列の長さは、コンパイル時に決まっていなければなりません。",
+        ],
+        hint: ["Write a number, or a `const int`.", "数値か `const int` で書いてください。"],
+    },
+    DisallowedWording {
+        says: "Too many args in macro",
+        message: ["This macro is given more arguments than it has.", "マクロに渡す引数が多すぎます。"],
+        hint: NO_HINT,
+    },
+    DisallowedWording {
+        says: "Too few args in macro",
+        message: ["This macro is given fewer arguments than it has.", "マクロに渡す引数が足りません。"],
+        hint: NO_HINT,
+    },
+    DisallowedWording {
+        says: "Too few args in Macro",
+        message: ["This macro is given fewer arguments than it has.", "マクロに渡す引数が足りません。"],
+        hint: NO_HINT,
+    },
+    DisallowedWording {
+        says: "duplicate member name",
+        message: ["Two members have the same name here.", "同じ名前のメンバが 2 つあります。"],
+        hint: NO_HINT,
+    },
+    DisallowedWording {
+        says: "non-uniform struct contains a sampler",
+        message: [
+            "A structure with a sampler is a uniform, and has no copies.",
+            "サンプラを含む構造体は uniform 変数にしかできず、コピーもできません。",
+        ],
+        hint: [
+            "Use the uniform itself, or hand it to a function as a parameter.",
+            "uniform 変数をそのまま使うか、関数の引数として渡してください。",
+        ],
+    },
+    DisallowedWording {
+        says: "not supported in this stage",
+        message: ["`{}` belongs to another kind of shader.", "`{}` はこの種類のシェーダでは使えません。"],
         hint: NO_HINT,
     },
     DisallowedWording {

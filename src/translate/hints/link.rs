@@ -23,7 +23,8 @@ pub fn explain(file: &HintContext<'_>, entry: &LogEntry<'_>) -> Diagnostic {
     } else if message.contains("Member names and types must match") {
         members_differ(file, &entry.more.join(" "))
     } else if message.contains("must match") || message.contains("must be compatible") {
-        output().and_then(|output| output_differs(file, output, message))
+        let of_output = || output().and_then(|output| output_differs(file, output, message));
+        uniform_differs(file, &entry.more.join(" ")).or_else(of_output)
     } else if message.contains("Missing entry point") {
         Some(no_main(file))
     } else if message.contains("Recursion detected") {
@@ -156,6 +157,27 @@ fn members_differ(file: &HintContext<'_>, more: &str) -> Option<Diagnostic> {
         "Both need the same members, with the same types and in the same order.",
         "メンバは、名前も型も順序も、両方で同じにしてください。",
     );
+    Some(at(file, own, text).hint(hint))
+}
+
+/// A uniform that both stages declare: `more` is the compiler's `vertex stage: " float a" fragment stage: " int a"`.
+fn uniform_differs(file: &HintContext<'_>, more: &str) -> Option<Diagnostic> {
+    let declared = |stage: &str| {
+        let text = more.split_once(stage)?.1.trim_start_matches([' ', '"']).split('"').next()?.trim();
+        // Of a structure the members are told, and not its name.
+        Some(text.rsplit_once('}').map_or(text, |(_, name)| name).trim())
+    };
+    let [vertex, fragment] = [declared("vertex stage:")?, declared("fragment stage:")?];
+    let (_, name) = source::words(fragment.split('[').next()?).last()?;
+    let is_it = |d: &&DeclaredName<'_>| d.global && d.is("uniform") && d.name == name;
+    let own = file.declarations.iter().find(is_it)?;
+    let text = Text::new(
+        format!("The two files declare `{name}` differently: `{vertex}` in the vertex shader, `{fragment}` here."),
+        format!(
+            "`{name}` の宣言が 2 つのファイルで異なっています。頂点シェーダでは `{vertex}`、ここでは `{fragment}` です。"
+        ),
+    );
+    let hint = Text::new("A uniform is one for both.", "uniform 変数は両方のシェーダに共通です。");
     Some(at(file, own, text).hint(hint))
 }
 

@@ -111,6 +111,10 @@ pub fn unknown_first_word(file: &HintContext<'_>, at: usize) -> Option<Diagnosti
         )));
     }
     let first = at.checked_sub(1)?;
+    // The name of a block stands behind its members.
+    if outside && first.checked_sub(1).is_some_and(|close| ends_structure(file, close)) {
+        return Some(missing_semicolon(file, first));
+    }
     let before = file.code.get(file.statement(at)..first)?;
     let qualified = before.iter().all(|token| vocabulary::is_qualifier(token.text));
     let adjacent = file.code[first].kind == LexemeKind::Word && token.kind == LexemeKind::Word && qualified;
@@ -150,14 +154,22 @@ pub fn semicolon(file: &HintContext<'_>, at: usize, message: &str) -> Option<Dia
     if !ends || !separate {
         return None;
     }
+    Some(missing_semicolon(file, before))
+}
+
+/// Says that the statement whose last word this is lacks its `;`.
+fn missing_semicolon(file: &HintContext<'_>, before: usize) -> Diagnostic {
+    let word = file.code[before].text;
     let text = Text::new(
         format!("A `;` is missing at the end of this statement, after `{word}`."),
         format!("文の終わりの `;` がありません (`{word}` の後)。"),
     );
-    Some(file.error_after(before, text).hint(Text::new(
+    let diagnostic = file.error_after(before, text);
+    let Some(token) = file.code.get(before + 1) else { return diagnostic };
+    diagnostic.hint(Text::new(
         format!("The compiler notices only at `{}` on line {}.", token.text, file.line(token.start)),
         format!("コンパイラが気付くのは次の `{}` ({} 行目) です。", token.text, file.line(token.start)),
-    )))
+    ))
 }
 
 /// Whether the statement of the line above goes on at the code token `at`: no statement begins with an operand that an

@@ -3,6 +3,19 @@
 use super::{HintCase, broken, check, diagnostics};
 use crate::diagnostic::Severity;
 
+const RULES: &[HintCase] = &[
+    ("float cosine = ", "§switch (shine) { case 1: break; }\n  float cosine = ", "`int`", "`int`"),
+    ("float cosine = ", "switch (1) { case 1: break; §case 1: break; }\n  float cosine = ", "same value", "同じ値"),
+    ("float cosine = ", "int n = 2; float list[§n];\n  float cosine = ", "`const int`", "`const int`"),
+    ("out vec4 colour;", "uniform Block { vec4 one; } block§\nout vec4 colour;", "A `;` is missing|`block`", "`;`"),
+    ("float cosine = ", "§discard;\n  float cosine = ", "another kind of shader", "この種類のシェーダ"),
+];
+
+#[test]
+fn rules_are_told_in_words() {
+    RULES.iter().for_each(check);
+}
+
 const NAMES: &[HintCase] = &[
     ("max(dot", "§Max(dot", "no function `Max`|`max`", "`Max` という関数はありません|`max`"),
     ("max(dot(n, h), 0.0)", "§Max(dot(n, h),\n  0.0)", "`max`", "`max`"),
