@@ -238,12 +238,12 @@ fn shape_agrees(evidence: &Evidence<'_>, probes: &ComparedProbes) -> bool {
     let scale = position_scale(evidence);
     let is_elsewhere =
         |probe: &Probe, sample: &Sample| position_difference(probe.position, sample, scale) > POSITION_TOLERANCE;
-    // What is thrown away leaves holes in what is drawn, and moves nothing.
-    let is_gone =
-        |(probe, sample): (&Probe, &Sample)| probe.colour != DISCARDED && DISCARDED == sample.colour_f64().into();
-    let has_holes = evidence.probes.iter().zip(evidence.samples).any(is_gone);
+    // What is thrown away leaves holes in what is drawn, what is kept fills them, and neither moves anything.
+    let is_hole =
+        |(probe, sample): (&Probe, &Sample)| (probe.colour == DISCARDED) != (DISCARDED == sample.colour_f64().into());
+    let has_other_holes = evidence.probes.iter().zip(evidence.samples).any(is_hole);
     probes.positions_agree
-        && (has_holes || evidence.frames.iter().all(FrameResult::shape_agrees))
+        && (has_other_holes || evidence.frames.iter().all(FrameResult::shape_agrees))
         && !evidence.fresh.refutes_each(is_elsewhere)
 }
 
