@@ -73,7 +73,7 @@ impl Pipeline {
                     format!("フラグメントシェーダが読む `{name}` を、バーテックスシェーダが書いていません"),
                 ));
             };
-            if written.kind != read.kind {
+            if !written.kind.is_like(&read.kind) {
                 let (name, from, to) = (&read.name, &written.kind, &read.kind);
                 return Err(both(
                     format!("`{name}` is a {from} in the vertex stage and a {to} in the fragment stage"),

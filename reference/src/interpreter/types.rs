@@ -146,6 +146,24 @@ impl Type {
         Self::Array(Arc::new(self), length)
     }
 
+    /// Whether another program means the same type: structures of one name and with the same members are one there.
+    pub fn is_like(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Struct(own), Self::Struct(other)) => {
+                let is_same = |((name, kind), (other_name, other)): (&(String, Self), &(String, Self))| {
+                    name == other_name && kind.is_like(other)
+                };
+                own.name == other.name
+                    && own.members.len() == other.members.len()
+                    && own.members.iter().zip(&other.members).all(is_same)
+            }
+            (Self::Array(own, length), Self::Array(other, other_length)) => {
+                length == other_length && own.is_like(other)
+            }
+            (own, other) => own == other,
+        }
+    }
+
     /// How many scalars a value has; none where a length is not known, or beyond all bounds.
     pub fn slots(&self) -> Option<usize> {
         match self {

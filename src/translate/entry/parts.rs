@@ -62,7 +62,12 @@ pub(in crate::translate) fn parts(module: &Module, io: &[Io], inputs: bool) -> V
             module.global_variables.iter().find(|(_, variable)| variable.name.as_ref() == Some(&io.variable));
         let Some((variable, declared)) = variable else { continue };
         let first = found.len();
-        walk(module, declared.ty, &PartWalk { io, variable, path: io.name.clone(), chain: Vec::new() }, &mut found);
+        walk(
+            module,
+            declared.ty,
+            &PartWalk { io, variable, path: io.name.clone(), chain: Vec::new(), member: None },
+            &mut found,
+        );
         for (number, part) in (0..).zip(&mut found[first..]) {
             part.attribute.location = io.location + number;
         }
@@ -75,6 +80,8 @@ struct PartWalk<'a> {
     variable: Handle<GlobalVariable>,
     path: String,
     chain: Vec<u32>,
+    /// Which member of the outermost structure it is in.
+    member: Option<u32>,
 }
 
 impl PartWalk<'_> {
@@ -88,7 +95,8 @@ fn walk(module: &Module, ty: Handle<Type>, at: &PartWalk<'_>, found: &mut Vec<At
         TypeInner::Struct { members, .. } => {
             for (index, member) in (0..).zip(members) {
                 let path = format!("{}.{}", at.path, member.name.as_deref().unwrap_or_default());
-                walk(module, member.ty, &at.into(index, path), found);
+                let member_of = PartWalk { member: at.member.or(Some(index)), ..at.into(index, path) };
+                walk(module, member.ty, &member_of, found);
             }
         }
         TypeInner::Array { base, size: naga::ArraySize::Constant(length), .. } => {
@@ -106,7 +114,7 @@ fn walk(module: &Module, ty: Handle<Type>, at: &PartWalk<'_>, found: &mut Vec<At
         }
         inner => {
             let size = if let TypeInner::Vector { size, .. } = inner { *size as u8 } else { 1 };
-            let of_member = at.chain.first().and_then(|member| at.io.members.get(*member as usize)).copied();
+            let of_member = at.member.and_then(|member| at.io.members.get(member as usize)).copied();
             let mut qualifiers = of_member.unwrap_or_default();
             let outer = at.io.qualifiers;
             qualifiers.centroid |= outer.centroid;

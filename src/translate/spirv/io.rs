@@ -46,7 +46,7 @@ pub struct Io {
     pub is_second: bool,
     /// Its qualifiers.
     pub qualifiers: InterfaceQualifiers,
-    /// Those of the members of a block.
+    /// Those of the members of a block, or of each block of an array.
     pub members: Vec<InterfaceQualifiers>,
 }
 
@@ -62,22 +62,24 @@ pub(super) fn find(code: &mut SpirvCode) -> Vec<(u32, Io)> {
         if !matches!(class, storage::INPUT | storage::OUTPUT) || is_built_in(code, id, pointee) {
             continue;
         }
+        // Of an array of blocks each is one by itself.
+        let single = super::declared::element(code, pointee);
+        let is_block = decorations(code, single).any(|own| own.first() == Some(&decoration::BLOCK));
         let members =
-            code.global(pointee).filter(|ty| ty.opcode == op::TYPE_STRUCT).map_or(0, |ty| ty.operands.len() - 1);
-        let is_block = decorations(code, pointee).any(|own| own.first() == Some(&decoration::BLOCK));
+            code.global(single).filter(|ty| ty.opcode == op::TYPE_STRUCT).map_or(0, |ty| ty.operands.len() - 1);
         let name_of = |id: u32| names.get(&id).cloned().unwrap_or_default();
         let own: Vec<&[u32]> = decorations(code, id).collect();
         let value = |which: u32| own.iter().find(|own| own[0] == which).and_then(|own| own.get(1).copied());
-        let name = name_of(if is_block { pointee } else { id });
+        let name = name_of(if is_block { single } else { id });
         let io = Io {
             variable: format!("{name}@{}", found.len()),
             is_input: class == storage::INPUT,
             is_used: used.contains(&id),
-            location: value(decoration::LOCATION).or_else(|| member_location(code, pointee)).unwrap_or(0),
+            location: value(decoration::LOCATION).or_else(|| member_location(code, single)).unwrap_or(0),
             is_second: value(decoration::INDEX) == Some(1),
             qualifiers: qualifiers(own.iter().map(|own| own[0])),
             members: (0..members as u32)
-                .map(|number| qualifiers(member_decorations(code, pointee, number).map(|own| own[0])))
+                .map(|number| qualifiers(member_decorations(code, single, number).map(|own| own[0])))
                 .collect(),
             name,
         };

@@ -200,11 +200,46 @@ impl Compiler {
                 slot += kind.slots().unwrap_or(0) as Slot;
             }
             self.instances.push(Name::clone(instance));
+    /// Tells the host of the members of an input or output block, or of each block of an array: by the name of the block, and by that which
+    /// the program has for it.
+    fn block_parts(
+        &mut self,
+        storage: StorageQualifier,
+        [path, written]: [&str; 2],
+        kind: &Type,
+        slot: Slot,
+        ways: &[(Interpolation, u32)],
+    ) -> Result<(), Refusal> {
+        let mut slot = slot;
+        match kind {
+            Type::Struct(structure) => {
+                for ((name, kind), (interpolation, line)) in structure.members.iter().zip(ways) {
+                    self.builder.line = *line;
+                    self.exchange(storage, &format!("{path}.{name}"), kind, slot)?;
+                    self.qualify(storage, *interpolation, None);
+                    if let Some(last) = self.last_exchanged(storage) {
+                        last.written = format!("{written}.{name}");
+                    }
+                    slot += kind.slots().unwrap_or(0) as Slot;
+                }
+            }
+            Type::Array(element, length) => {
+                for index in 0..length.unwrap_or(scope::UNSIZED) {
+                    let names = [path, written].map(|name| format!("{name}[{index}]"));
+                    self.block_parts(storage, [&names[0], &names[1]], element, slot, ways)?;
+                    slot += element.slots().unwrap_or(0) as Slot;
+                }
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+
         } else {
-            return Err(self.limit(both(
-                "arrays of input and output blocks are not supported",
-                "入出力ブロックの配列には対応していません",
-            )));
+            self.block_parts(storage, [&block.name, instance], &kind, slot, &ways)?;
+            if matches!(kind, Type::Struct(_)) {
+                self.instances.push(Name::clone(instance));
+            }
         }
         self.scopes.declare(Name::clone(instance), Symbol::variable(kind, slot));
         Ok(())
