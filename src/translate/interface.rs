@@ -115,8 +115,13 @@ impl DeclaredUniform {
     /// Whether the program sets this part by `path`; an array without an index is its first element.
     fn is_at(&self, path: &str) -> bool {
         let is_it = |own: &str| own == path || own.strip_suffix("[0]") == Some(path);
-        // A member of a block without an instance name goes by its own name.
-        is_it(&self.path) || self.path.split_once('.').is_some_and(|(_, member)| self.is_in_block && is_it(member))
+        is_it(&self.path) || self.own_name().is_some_and(is_it)
+    }
+
+    /// What a member of a block without an instance name goes by; an array of blocks has one.
+    fn own_name(&self) -> Option<&str> {
+        let (block, member) = self.path.split_once('.')?;
+        (self.is_in_block && !block.ends_with(']')).then_some(member)
     }
 
     /// Whether it holds what the program passes as a value of this type. A block is filled with bits: whole numbers are the same
@@ -138,7 +143,7 @@ impl DeclaredUniform {
                 None => rest.starts_with('.').then_some("struct"),
             }
         };
-        let member = self.path.split_once('.').map(|(_, member)| member).filter(|_| self.is_in_block);
+        let member = self.own_name();
         if let Some("struct") = shape(&uniform.name, &self.path) {
             return Some((uniform.clone(), "struct"));
         }

@@ -182,13 +182,19 @@ impl Driver {
                     self.set_value(&location, *kind, numbers);
                     continue;
                 }
-                let Some((index, element)) = active_element(&active, path) else { continue };
+                let listed = active_element(&active, path).map(|found| (found, None));
+                let of_several = || {
+                    let (block, member) = member_of_several(path)?;
+                    Some((active_element(&active, &member)?, gl.get_uniform_block_index(name, block)))
+                };
+                let Some(((index, element), own_block)) = listed.or_else(of_several) else { continue };
                 let of = |what| gl.get_active_uniforms_parameter(name, &[index as u32], what)[0];
                 let (block, offset, stride) =
                     (of(glow::UNIFORM_BLOCK_INDEX), of(glow::UNIFORM_OFFSET), of(glow::UNIFORM_MATRIX_STRIDE));
                 let (Ok(block), Ok(offset)) = (usize::try_from(block), usize::try_from(offset)) else { continue };
                 let offset = offset + element * usize::try_from(of(glow::UNIFORM_ARRAY_STRIDE)).unwrap_or_default();
                 let is_row_major = of(glow::UNIFORM_IS_ROW_MAJOR) != 0;
+                let block = own_block.map_or(block, |own| own as i32);
                 let size = gl.get_active_uniform_block_parameter_i32(name, block as u32, glow::UNIFORM_BLOCK_DATA_SIZE);
                 blocks.resize_with(blocks.len().max(block + 1), Vec::new);
                 blocks[block].resize(usize::try_from(size).expect("a size"), 0);
@@ -270,6 +276,13 @@ fn active_element(active: &[String], path: &str) -> Option<(usize, usize)> {
 /// Columns of so many rows as rows.
 fn transposed(numbers: &[f64], rows: usize) -> Vec<f64> {
     (0..rows).flat_map(|row| numbers.iter().skip(row).step_by(rows).copied()).collect()
+/// The name of a block that is one of an array, and the member as the driver lists it, which does so once for all of them.
+fn member_of_several(path: &str) -> Option<(&str, String)> {
+    let (block, member) = path.split_once('.')?;
+    let (name, _) = block.strip_suffix(']')?.split_once('[')?;
+    Some((block, format!("{name}.{member}")))
+}
+
 }
 
 fn components(kind: ValueKind) -> usize {

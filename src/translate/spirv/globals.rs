@@ -85,6 +85,13 @@ pub(super) fn rework(code: &mut SpirvCode, how: How<'_>, samplers: &SamplerTypes
             places.insert(id, (Destination::Member(members.len() as u32), pointee));
             declare(code, samplers, pointee, name.clone(), false, &mut uniforms.declared);
             members.push((name, pointee));
+        } else if is_block && set.contains(&name.as_str()) && is_array_of_blocks(code, pointee) {
+            // wgpu binds no array of blocks: it is an array of structures in the block of all others.
+            declare(code, samplers, pointee, name.clone(), true, &mut uniforms.declared);
+            forget_places(code, pointee);
+            code.undecorate(element(code, pointee));
+            places.insert(id, (Destination::Member(members.len() as u32), pointee));
+            members.push((name, pointee));
         } else if is_block && is_set_block(code, set, pointee, &name) {
             declare(code, samplers, pointee, name, true, &mut uniforms.declared);
             places.insert(id, (Destination::Block, pointee));
@@ -118,6 +125,11 @@ fn is_set_block(code: &SpirvCode, set: &[&str], ty: u32, name: &str) -> bool {
         return false;
     }
     set.contains(&name) || io::member_names(code, ty).iter().any(|(_, member)| set.contains(&member.as_str()))
+}
+
+/// Whether it is an array of blocks.
+fn is_array_of_blocks(code: &SpirvCode, ty: u32) -> bool {
+    code.global(ty).is_some_and(|declared| declared.opcode == op::TYPE_ARRAY) && fits_block(code, ty)
 }
 
 /// A vector or structure of these numbers.
