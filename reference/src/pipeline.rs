@@ -1,7 +1,9 @@
 //! A vertex and a fragment stage, linked: what is handed from one to the other, and what is seen of it.
 
-use crate::assignment::Interface;
-use crate::interpreter::{Copied, Interpolation, Nature, Outputs, Program, ProgramVariable, Run, Texture};
+use crate::assignment::{Interface, Uniform};
+use crate::interpreter::{
+    BlockPlace, Copied, Interpolation, Nature, Outputs, Program, ProgramVariable, Run, Scalar, Texture, Type, std140,
+};
 use crate::probes::at_pixel;
 use crate::scene::Vertex;
 use crate::text::{Text, both};
@@ -191,20 +193,48 @@ impl<'a> UniformsOf<'a> {
         let is_same = |own: &&[Value]| std::ptr::eq(*own, first) || own[place] == first[place];
         if all.iter().all(is_same) { Ok(&first[place]) } else { Err(all.iter().map(move |own| &own[place])) }
     }
+
+    /// A column of so many samples for each of these numbers; 0 where there is none.
+    fn numbers(self, numbers: &[Option<(usize, usize)>], samples: usize) -> Vec<Vec<f64>> {
+        let column = |number: &Option<(usize, usize)>| {
+            let of = |own: &[Value]| number.map_or(0.0, |(place, number)| own[place].numbers()[number]);
+            match self {
+                Self::All(own) => vec![of(own); samples],
+                Self::Each(all) => all.iter().map(|own| of(own)).collect(),
+            }
+        };
+        numbers.iter().map(column).collect()
+    }
+}
+
+/// Where the numbers of a program's uniform come from.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum UniformSource {
+    /// It is this one of the homework's.
+    Whole(usize),
+    /// It lies in a block of the homework's, over other members: for each of its numbers a uniform, and which of its numbers. What the
+    /// homework leaves open is 0.
+    Numbers(Vec<Option<(usize, usize)>>),
 }
 
 impl Interface {
-    /// Whether a program declares other parts of a block than the homework fills, such as a `vec4` for a `vec3` and a `float`: what lies
-    /// there has no value of its own here.
-    fn leaves_open(&self, program: &Program) -> bool {
-        let is_filled = |block: &str| {
-            self.uniforms.iter().filter_map(|uniform| uniform.place.as_ref()).any(|place| place.block == block)
+    /// Where the numbers of a program's uniform come from; none where the homework sets none of them.
+    pub fn source(&self, own: &ProgramVariable) -> Option<UniformSource> {
+        let is_it = |uniform: &Uniform| uniform.is(own) && own.kind == uniform.kind;
+        // Of two with one name the last counts: it is the student's own.
+        if let Some(place) = self.uniforms.iter().rposition(is_it) {
+            return Some(UniformSource::Whole(place));
+        }
+        let BlockPlace { block, offset, .. } = own.place.as_ref()?;
+        let in_block = || {
+            let all = self.uniforms.iter().enumerate();
+            all.filter_map(|(number, uniform)| Some((number, uniform, uniform.place.as_ref()?.offset_in(block)?)))
         };
         let is_open = |own: &ProgramVariable| {
             own.place.as_ref().is_some_and(|place| is_filled(&place.block))
                 && !self.uniforms.iter().any(|uniform| uniform.is(own) && uniform.kind == own.kind)
         };
-        program.uniforms().iter().any(is_open)
+        Some(UniformSource::Numbers(std140::numbers(&own.kind).iter().map(|at| number_at(offset + at)).collect()))
     }
 
     /// A run with uniforms, as far as the program has them, and textures.
@@ -219,15 +249,16 @@ impl Interface {
         if samples == 0 {
             return Some(run);
         }
-        if self.leaves_open(program) {
-            return None;
-        }
-        for (place, uniform) in self.uniforms.iter().enumerate() {
-            let is_own = |own: &&ProgramVariable| uniform.is(own) && own.kind == uniform.kind;
-            let Some(own) = program.uniforms().iter().find(is_own) else { continue };
-            run = match uniforms.value(place) {
-                Ok(value) => run.uniform(&own.name, value.numbers()).ok()?,
-                Err(values) => run.uniform_of_each(&own.name, columns(own, values)).ok()?,
+        for own in program.uniforms() {
+            run = match self.source(own) {
+                None => run,
+                Some(UniformSource::Whole(place)) => match uniforms.value(place) {
+                    Ok(value) => run.uniform(&own.name, value.numbers()).ok()?,
+                    Err(values) => run.uniform_of_each(&own.name, columns(own, values)).ok()?,
+                },
+                Some(UniformSource::Numbers(numbers)) => {
+                    run.uniform_of_each(&own.name, uniforms.numbers(&numbers, samples)).ok()?
+                }
             };
         }
         Some(run)

@@ -247,6 +247,13 @@ pub struct BlockPlace {
     pub is_std140: bool,
 }
 
+impl BlockPlace {
+    /// Its place in a block of this name.
+    pub fn offset_in(&self, block: &str) -> Option<u32> {
+        (self.block == block).then_some(self.offset)
+    }
+}
+
 /// How a variable is interpolated between vertices.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Interpolation {
