@@ -51,6 +51,7 @@ mod text;
 mod texture;
 pub mod trace;
 mod types;
+mod window;
 
 #[cfg(test)]
 mod tests;
@@ -71,6 +72,7 @@ pub use syntax::Binary;
 pub use text::numbers;
 pub use texture::{Compare, Depths, Filter, Level, Lookup, Texels, Texture, Wrap};
 pub use types::{Dimension, Sampler, Scalar, Struct, Type};
+pub use window::WindowCoordinates;
 
 use crate::Text;
 use schemars::JsonSchema;

@@ -11,6 +11,7 @@ use super::scene::{DrawCall, DrawState};
 use crate::translate::{CAPTURE_HEADER, CAPTURE_SLOT, InputInterpolation, Shader, StageVariable, UniformBlock};
 use naga::ScalarKind;
 use pass_on::pass_on;
+use reference::interpreter::WindowCoordinates;
 use reference::scene::{Cull, DepthTest};
 use std::borrow::Cow;
 use wgpu::util::DeviceExt;
@@ -31,6 +32,8 @@ pub(super) struct FragmentStage {
     /// What it gives.
     pub outputs: Vec<StageVariable>,
     blocks: Vec<UniformBlock>,
+    /// How it counts places in the window.
+    window: WindowCoordinates,
     /// Whether it reads `gl_FragCoord`.
     pub is_placed: bool,
     /// Whether it gives a depth of its own, for which a pass needs a target.
@@ -83,12 +86,19 @@ impl FragmentStage {
             outputs: shader.outputs.clone(),
             blocks: shader.uniforms.clone(),
             is_placed: shader.shift.is_some(),
+            window: shader.window,
             writes_depth: shader.writes_depth(),
             is_fixed: shader.is_fixed,
             reads_textures: shader.reads_textures,
             has_derivatives: shader.has_derivatives(),
             pipelines: Vec::new(),
         }
+    }
+
+    /// What is added to a place in the target, or what it is taken from where rows are counted from the top; by OpenGL's own rules
+    /// it is `shift`, in a window of so many rows.
+    pub fn shift(&self, shift: [f64; 2], rows: f64) -> [f32; 2] {
+        [0, 1].map(|axis| self.window.along(axis, shift[axis], rows) as f32)
     }
 
     /// Whether it has a group for header and textures.

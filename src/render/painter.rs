@@ -148,7 +148,12 @@ impl RenderTarget {
             device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: Some(label), contents, usage })
         };
         let indices = buffer("corners", bytemuck::cast_slice(&corners), wgpu::BufferUsages::INDEX);
-        let shifts: Vec<[f32; 2]> = self.tiles.tiles.iter().map(|tile| tile.shift(scene.height)).collect();
+        let shifts: Vec<[f32; 2]> = self
+            .tiles
+            .tiles
+            .iter()
+            .map(|tile| stage.shift(tile.shift(scene.height).map(f64::from), f64::from(scene.height)))
+            .collect();
         let shifts = stage
             .is_placed
             .then(|| buffer("places of frames", bytemuck::cast_slice(&shifts), wgpu::BufferUsages::VERTEX));

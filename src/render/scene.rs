@@ -7,6 +7,9 @@ use reference::scene::{Cull, DepthTest};
 use reference::{Value, Values};
 use std::sync::Arc;
 
+/// An input of probes that is no student's: width and height of the window that each lies in.
+pub(super) const WINDOW: &str = "window";
+
 /// How the fragments of a draw are kept.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct DrawState {

@@ -24,6 +24,7 @@ use super::build::Build;
 use super::fuel::{self, Gauge};
 use header::CaptureHeader;
 use naga::{Expression, Function, GlobalVariable, Handle, LocalVariable, Module, Span, Statement};
+use reference::interpreter::WindowCoordinates;
 
 /// Bind group of the capture buffer; the student's own uniform blocks are in group 0.
 pub const CAPTURE_GROUP: u32 = 1;
@@ -59,9 +60,10 @@ pub(super) fn rebuild_fragment(
     inputs: &[AttributePart],
     outputs: &[AttributePart],
     hooks: Option<&Hooks>,
+    window: WindowCoordinates,
 ) -> Option<u32> {
     let mut entry = module.entry_points.remove(0);
-    let shift = fragment::rebuild(module, &mut entry.function, inputs, outputs, hooks);
+    let shift = fragment::rebuild(module, &mut entry.function, inputs, outputs, hooks, window);
     entry.name = "main".into();
     module.entry_points.push(entry);
     shift

@@ -15,6 +15,7 @@ use crate::ffi::glslang::Stage;
 use crate::language::Text;
 use crate::source::Source;
 use naga::{Module, TypeInner};
+use reference::interpreter::WindowCoordinates;
 
 /// A stage that wgpu can run.
 #[derive(Clone, Debug)]
@@ -32,6 +33,8 @@ pub struct Shader {
     pub is_fixed: bool,
     /// The location of what is to be added to `gl_FragCoord`, where a fragment stage reads that.
     pub shift: Option<u32>,
+    /// How it counts places in the window.
+    pub window: WindowCoordinates,
     /// Its uniform blocks in order of binding.
     pub uniforms: Vec<UniformBlock>,
     /// Whether it reads textures, which are bound at [`TEXTURES`](super::TEXTURES).
@@ -127,7 +130,7 @@ pub(super) fn build(
     let has_textures = interface.uniforms.iter().any(|uniform| uniform.ty.contains("sampler"));
     let (set, alike) = (&interface.set_uniforms(), interface.alike);
     let rework = spirv::How { set, has_textures, alike, is_split: true, poisons: how.poisons };
-    let Reworked { words, lines, uniforms: known, io, reads_textures } =
+    let Reworked { words, lines, uniforms: known, io, reads_textures, window } =
         spirv::rework(&written, rework).map_err(refusal)?;
     let mut module = parse(&words)?;
     let [mut inputs, mut outputs] = [true, false].map(|inputs| entry::parts(&module, &io, inputs));
@@ -160,7 +163,7 @@ pub(super) fn build(
         Stage::Fragment => {
             inputs.retain(|part| part.attribute.is_used);
             outputs.retain(|part| part.attribute.is_used);
-            entry::rebuild_fragment(&mut module, &inputs, &outputs, (!how.is_fixed).then_some(&hooks))
+            entry::rebuild_fragment(&mut module, &inputs, &outputs, (!how.is_fixed).then_some(&hooks), window)
         }
     };
     let mut uniforms = bind_uniforms(&mut module);
@@ -177,6 +180,7 @@ pub(super) fn build(
         outputs,
         is_fixed,
         shift,
+        window,
         uniforms,
         reads_textures,
         misplaced,
@@ -191,7 +195,6 @@ pub(super) fn build(
 fn refusal(unworkable: Unworkable) -> TranslationRefusal {
     match unworkable {
         Unworkable::Damaged => damaged(unworkable).into(),
-        Unworkable::FromTheTop => unsupported("`layout(origin_upper_left)`").into(),
         Unworkable::Cases(line) => gate::too_many_cases(line),
     }
 }

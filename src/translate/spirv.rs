@@ -30,6 +30,7 @@ pub use textures::{CommonTexture, DESCRIPTION, TEXTURES, descriptions};
 pub(super) use walk::{RawInstruction, instructions, rename, text};
 
 use code::SpirvCode;
+use reference::interpreter::WindowCoordinates;
 use std::collections::BTreeMap;
 
 /// What the compiler wrote, as naga's front end takes it.
@@ -44,6 +45,8 @@ pub(super) struct Reworked {
     pub io: Vec<Io>,
     /// Whether textures are read.
     pub reads_textures: bool,
+    /// How places in the window are counted.
+    pub window: WindowCoordinates,
 }
 
 /// Why words are not reworked.
@@ -51,8 +54,6 @@ pub(super) struct Reworked {
 pub(super) enum Unworkable {
     /// They are damaged.
     Damaged,
-    /// They count the window's rows from the top.
-    FromTheTop,
     /// The cases of the `switch` on this line, each with all that it runs into, grow beyond reason.
     Cases(Option<u32>),
 }
@@ -88,9 +89,7 @@ pub(super) struct How<'a> {
 pub(super) fn rework(words: &[u32], how: How<'_>) -> Result<Reworked, Unworkable> {
     let mut code = SpirvCode::parse(words).ok_or(Unworkable::Damaged)?;
     let samplers = if how.has_textures { textures::SamplerTypes::take(&mut code) } else { Default::default() };
-    if code.counts_from_the_top() {
-        return Err(Unworkable::FromTheTop);
-    }
+    let window = built_ins::window(&mut code);
     let is_fragment = code.is_fragment();
     let (uniforms, io) = globals::rework(&mut code, how, &samplers);
     undefined(&mut code);
@@ -103,7 +102,7 @@ pub(super) fn rework(words: &[u32], how: How<'_>) -> Result<Reworked, Unworkable
     }
     infinite::rework(&mut code);
     let (words, lines) = code.encode();
-    Ok(Reworked { words, lines, uniforms, io, reads_textures })
+    Ok(Reworked { words, lines, uniforms, io, reads_textures, window })
 }
 
 fn undefined(code: &mut SpirvCode) {

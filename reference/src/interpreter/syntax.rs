@@ -1,6 +1,7 @@
 //! What a parsed program is made of. Names are not resolved, and nothing has a type yet.
 
 use super::code::Interpolation;
+use super::window::WindowCoordinates;
 use std::rc::Rc;
 
 /// A name in the program.
@@ -78,6 +79,8 @@ pub struct Qualifiers {
     pub interpolation: Interpolation,
     /// `layout(location = …)`, where a number is written.
     pub location: Option<u32>,
+    /// How `gl_FragCoord` counts from here on.
+    pub window: WindowCoordinates,
     /// Whether `layout(std140)` is among them.
     pub is_std140: bool,
     /// Whether `layout` says where something lies, or that rows lie before columns.

@@ -49,6 +49,8 @@ pub struct Spot {
     pub weights_beside: [[f64; 3]; 2],
     /// `gl_FragCoord`.
     pub place: [f64; 4],
+    /// Width and height of the window that it lies in.
+    pub window: [f64; 2],
     /// `gl_FrontFacing`.
     pub is_front: bool,
     /// What the right vertex stage hands over there, exact in f32: for each of its outputs.
@@ -250,6 +252,7 @@ impl Assignment {
                 weights,
                 weights_beside,
                 place,
+                window: drawn.window,
                 is_front,
                 varyings,
                 varyings_beside,

@@ -1,7 +1,7 @@
 //! The fragments of what is seen, and what the fragment stage reads at them.
 
 use super::Scenery;
-use crate::interpreter::{Program, ProgramVariable};
+use crate::interpreter::{Program, ProgramVariable, WindowCoordinates};
 use crate::rasteriser::{Setup, Visible};
 
 /// A pixel that a triangle covers, or one beside it that its quad needs.
@@ -73,9 +73,9 @@ impl Scenery<'_> {
             |of: &dyn Fn(&Setup, f64, f64) -> f64| places.iter().map(|(setup, x, y)| of(setup, *x, *y)).collect();
         let given = |(place, input): (usize, &'p ProgramVariable)| {
             let columns = match input.name.as_str() {
-                "gl_FragCoord" => vec![
-                    column(&|_, x, _| (x + 1.0) / 2.0 * width),
-                    column(&|_, _, y| (y + 1.0) / 2.0 * height),
+                name if let Some(window) = WindowCoordinates::of(name) => vec![
+                    column(&|_, x, _| window.along(0, (x + 1.0) / 2.0 * width, height)),
+                    column(&|_, _, y| window.along(1, (y + 1.0) / 2.0 * height, height)),
                     column(&Setup::depth),
                     column(&Setup::reciprocal_w),
                 ],

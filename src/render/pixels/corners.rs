@@ -2,7 +2,7 @@
 
 use super::SIDE;
 use crate::render::fragments::{FragmentStage, is_flat};
-use crate::render::scene::DrawCall;
+use crate::render::scene::{DrawCall, WINDOW};
 use crate::translate::StageVariable;
 use naga::ScalarKind;
 
@@ -25,7 +25,7 @@ pub(super) fn corners(stage: &FragmentStage, batches: &[DrawCall], rows: u32) ->
             .iter()
             .map(|input| (input, column(&input.name), beside(0, input).zip(beside(1, input))))
             .collect();
-        let (place, facing) = (column(PLACE), column(FACING));
+        let [place, facing, window] = [PLACE, FACING, WINDOW].map(column);
         for vertex in 0..batch.vertices() as usize {
             let middle = [number % SIDE, number / SIDE].map(|at| f64::from(at) + 0.5);
             number += 1;
@@ -33,6 +33,8 @@ pub(super) fn corners(stage: &FragmentStage, batches: &[DrawCall], rows: u32) ->
                 place.and_then(|place| place.iter().nth(vertex)?.get(axis).copied()).map_or(0.0, |at| at - middle[axis])
             });
             let given = |axis: usize| place.and_then(|place| place.iter().nth(vertex)?.get(axis).copied());
+            let window_rows = window.and_then(|window| window.iter().nth(vertex)?.get(1).copied()).unwrap_or(0.0);
+            let shift = stage.shift(shift, window_rows);
             // Window depth d is (z/w + 1)/2, and `gl_FragCoord.w` is 1/w.
             let w = given(3).filter(|inverse| *inverse > 0.0).map_or(1.0, f64::recip);
             let z = given(2).map_or(0.0, |depth| 2.0 * depth - 1.0);
@@ -60,7 +62,7 @@ pub(super) fn corners(stage: &FragmentStage, batches: &[DrawCall], rows: u32) ->
                         _ => (number as f32).to_bits(),
                     }));
                 }
-                shifts.extend(shift.map(|number| number as f32));
+                shifts.extend(shift);
             }
         }
     }

@@ -1,7 +1,7 @@
 //! The scene of an assignment: its frames, and what is run for its probes.
 
-use super::{DrawCall, DrawState, RenderScene};
-use crate::translate::VERTEX_NUMBER;
+use super::{DrawCall, DrawState, RenderScene, WINDOW};
+use crate::translate::{INSTANCE_NUMBER, VERTEX_NUMBER};
 use reference::assignment::Input;
 use reference::interpreter::Stage;
 use reference::interpreter::Type;
@@ -73,6 +73,7 @@ fn places(spots: &[&Spot]) -> Vec<(String, Values)> {
     let fronts = spots.iter().map(|spot| f64::from(u8::from(spot.is_front))).collect();
     vec![
         ("gl_FragCoord".into(), Values { kind: Type::VEC4, numbers: places }),
+        (WINDOW.into(), Values { kind: Type::vector(2), numbers: windows }),
         ("gl_FrontFacing".into(), Values { kind: Type::BOOL, numbers: fronts }),
     ]
 }

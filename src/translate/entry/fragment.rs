@@ -15,6 +15,7 @@ use naga::{
     LocalVariable, MathFunction, Module, Sampling, Scalar, ScalarKind, Span, Statement, StructMember, SwitchCase, Type,
     TypeInner, VectorSize,
 };
+use reference::interpreter::WindowCoordinates;
 
 /// Colours beyond this are painted as if they were this: the driver's conversion to 8 bits goes through an `i32`, and
 /// would make black of what that cannot hold.
@@ -27,6 +28,7 @@ pub(super) fn rebuild(
     inputs: &[AttributePart],
     outputs: &[AttributePart],
     hooks: Option<&Hooks>,
+    window: WindowCoordinates,
 ) -> Option<u32> {
     let header = hooks.map(|hooks| (hooks, CaptureHeader::declare(module, None)));
     let depth = depth(function);
@@ -51,7 +53,7 @@ pub(super) fn rebuild(
     let mut build = Build::new(&mut function.expressions);
     if let Some((place, shift)) = shift {
         // The copy of the argument to the student's variable becomes one of the sum.
-        let sum = shifted(&mut build, [vec2, result.vectors[0]], place, shift);
+        let sum = shifted(&mut build, [vec2, result.vectors[0]], place, shift, window);
         for (statement, _) in &mut call {
             if let Statement::Store { value, .. } = statement
                 && build.is_argument(*value, place)
@@ -226,11 +228,18 @@ fn shift_argument(module: &mut Module, function: &mut Function, location: u32) -
 }
 
 /// The place in the window, as four numbers.
-fn shifted(build: &mut Build<'_>, [vec2, vec4]: [Handle<Type>; 2], place: u32, shift: u32) -> Handle<Expression> {
+fn shifted(
+    build: &mut Build<'_>,
+    [vec2, vec4]: [Handle<Type>; 2],
+    place: u32,
+    shift: u32,
+    window: WindowCoordinates,
+) -> Handle<Expression> {
     let [place, shift] = [place, shift].map(|argument| build.leaf(Expression::FunctionArgument(argument)));
     let parts = [0, 1].map(|axis| {
         let (at, by) = (build.member(place, axis), build.member(shift, axis));
-        build.binary(BinaryOperator::Add, at, by)
+        let is_turned = window.from_top && axis == 1;
+        build.binary(if is_turned { BinaryOperator::Subtract } else { BinaryOperator::Add }, by, at)
     });
     let xy = build.node(Expression::Compose { ty: vec2, components: parts.to_vec() });
     let [z, w] = [2, 3].map(|axis| build.member(place, axis));

@@ -2,6 +2,8 @@
 
 use super::code::{SpirvCode, SpirvInstruction};
 use super::op::{self, built_in, decoration, execution_mode};
+use reference::interpreter::WindowCoordinates;
+use std::collections::HashSet;
 
 /// Takes away what says which outputs transform feedback catches: the program catches none.
 pub(super) fn uncaught(code: &mut SpirvCode) {
@@ -16,13 +18,33 @@ pub(super) fn uncaught(code: &mut SpirvCode) {
     });
 }
 
-/// Makes `gl_VertexID`, where it is read, an input that is fed: what is drawn for probes has its vertices in another order than their
-/// mesh.
-pub(super) fn number_as_input(code: &mut SpirvCode) {
-    let Some(at) = decoration_of(code, built_in::VERTEX_ID) else { return };
-    let id = code.heads[at].operands[0];
-    if code.functions.iter().any(|instruction| instruction.operands.contains(&id)) {
-        code.heads.remove(at);
+/// How the stage counts places in the window, and takes away what says so and what it promises of its depth: a wrong promise is
+/// undefined, and without it the driver looks at the depth itself. Tests before the stage are those behind one that throws nothing away
+/// and writes no depth.
+pub(super) fn window(code: &mut SpirvCode) -> WindowCoordinates {
+    use execution_mode::{DEPTH_GREATER, DEPTH_LESS, DEPTH_UNCHANGED, EARLY_FRAGMENT_TESTS};
+    use execution_mode::{ORIGIN_UPPER_LEFT, PIXEL_CENTER_INTEGER};
+    let window = WindowCoordinates {
+        from_top: code.has_mode(ORIGIN_UPPER_LEFT),
+        in_whole_pixels: code.has_mode(PIXEL_CENTER_INTEGER),
+    };
+    code.drop_modes(&[PIXEL_CENTER_INTEGER, DEPTH_GREATER, DEPTH_LESS, DEPTH_UNCHANGED]);
+    let throws_away = code.functions.iter().any(|one| one.opcode == op::KILL);
+    if !throws_away && decoration_of(code, built_in::FRAG_DEPTH).is_none() {
+        code.drop_modes(&[EARLY_FRAGMENT_TESTS]);
+    }
+    window
+}
+
+/// Makes `gl_VertexID` and `gl_InstanceID`, where they are read, inputs that are fed: what is drawn for probes has its vertices in
+/// another order than their mesh, and each instance is a draw by itself.
+pub(super) fn numbers_as_inputs(code: &mut SpirvCode) {
+    for which in [built_in::VERTEX_ID, built_in::INSTANCE_ID] {
+        let Some(at) = decoration_of(code, which) else { continue };
+        let id = code.heads[at].operands[0];
+        if code.functions.iter().any(|instruction| instruction.operands.contains(&id)) {
+            code.heads.remove(at);
+        }
     }
 }
 

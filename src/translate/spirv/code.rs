@@ -109,10 +109,15 @@ impl SpirvCode {
         self.heads.iter().any(|head| head.opcode == op::ENTRY_POINT && head.operands[0] == 4)
     }
 
-    /// Whether a fragment stage asks for window coordinates with the first row at the top.
-    pub fn counts_from_the_top(&self) -> bool {
-        let is_top = |head: &SpirvInstruction| head.operands.get(1) == Some(&op::execution_mode::ORIGIN_UPPER_LEFT);
-        self.heads.iter().any(|head| head.opcode == op::EXECUTION_MODE && is_top(head))
+    /// Whether an entry point asks for this.
+    pub fn has_mode(&self, mode: u32) -> bool {
+        self.heads.iter().any(|head| head.opcode == op::EXECUTION_MODE && head.operands.get(1) == Some(&mode))
+    }
+
+    /// Takes away what entry points ask for.
+    pub fn drop_modes(&mut self, modes: &[u32]) {
+        let is_one = |head: &SpirvInstruction| head.operands.get(1).is_some_and(|mode| modes.contains(mode));
+        self.heads.retain(|head| head.opcode != op::EXECUTION_MODE || !is_one(head));
     }
 
     /// How many words the functions have.

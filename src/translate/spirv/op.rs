@@ -97,6 +97,7 @@ pub const BIT_COUNT: u16 = 205;
 pub const D_PDX: u16 = 207;
 pub const D_PDY: u16 = 208;
 pub const MEMORY_BARRIER: u16 = 225;
+pub const KILL: u16 = 252;
 pub const LOOP_MERGE: u16 = 246;
 pub const SELECTION_MERGE: u16 = 247;
 pub const LABEL: u16 = 248;
@@ -138,9 +139,14 @@ pub mod decoration {
 
 /// Execution modes.
 pub mod execution_mode {
+    pub const PIXEL_CENTER_INTEGER: u32 = 6;
     pub const ORIGIN_UPPER_LEFT: u32 = 7;
     pub const ORIGIN_LOWER_LEFT: u32 = 8;
+    pub const EARLY_FRAGMENT_TESTS: u32 = 9;
     pub const XFB: u32 = 11;
+    pub const DEPTH_GREATER: u32 = 14;
+    pub const DEPTH_LESS: u32 = 15;
+    pub const DEPTH_UNCHANGED: u32 = 16;
 }
 
 /// Built-in variables.
@@ -153,6 +159,7 @@ pub mod built_in {
     pub const SAMPLE_ID: u32 = 18;
     pub const SAMPLE_POSITION: u32 = 19;
     pub const SAMPLE_MASK: u32 = 20;
+    pub const FRAG_DEPTH: u32 = 22;
     pub const HELPER_INVOCATION: u32 = 23;
     pub const VERTEX_ID: u32 = 5;
     pub const INSTANCE_ID: u32 = 6;

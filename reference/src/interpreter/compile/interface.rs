@@ -6,7 +6,7 @@ use crate::interpreter::code::{BlockPlace, Interpolation, ProgramVariable, Slot}
 use crate::interpreter::run::Undefined;
 use crate::interpreter::syntax::{BaseType, Declaration, InterfaceBlock, Name, Qualifiers, StorageQualifier};
 use crate::interpreter::types::{Struct, Type};
-use crate::interpreter::{Refusal, Stage, builtin, std140};
+use crate::interpreter::{Refusal, Stage, WindowCoordinates, builtin, std140};
 use crate::text::both;
 use std::sync::Arc;
 
@@ -49,7 +49,7 @@ impl Compiler {
             self.builder.line = variable.line;
             let kind = self.arrays_of(base.clone(), &variable.lengths)?;
             if variable.name.starts_with("gl_") {
-                self.redeclare(&variable.name, kind)?;
+                self.redeclare(&variable.name, kind, declaration.qualifiers.window)?;
                 continue;
             }
             let slot = self.allocate(&kind)?;
@@ -167,7 +167,9 @@ impl Compiler {
         let ways: Vec<(Interpolation, u32)> = block.members.iter().flat_map(each).collect();
         self.builder.line = block.line;
         if &*block.name == "gl_PerVertex" {
-            return members.into_iter().try_for_each(|(name, kind)| self.redeclare(&Name::from(name), kind));
+            return members
+                .into_iter()
+                .try_for_each(|(name, kind)| self.redeclare(&Name::from(name), kind, WindowCoordinates::default()));
         }
         let Some((instance, lengths)) = &block.instance else {
             for ((name, kind), (interpolation, line)) in members.into_iter().zip(ways) {
@@ -267,14 +269,15 @@ impl Compiler {
         Ok(())
     }
 
-    /// A built-in variable that the program declares again, perhaps with a length.
-    fn redeclare(&mut self, name: &Name, kind: Type) -> Result<(), Refusal> {
+    /// A built-in variable that the program declares again, perhaps with a length or a way to count.
+    fn redeclare(&mut self, name: &Name, kind: Type, window: WindowCoordinates) -> Result<(), Refusal> {
         let known = builtin::variable(name, self.stage);
         let (storage, known) = known.ok_or_else(|| {
             self.limit(both(format!("there is no `{name}` here"), format!("ここでは `{name}` を使えません")))
         })?;
         let kind = if kind.slots().is_some() { kind } else { known };
-        self.built_in(name, storage, kind)
+        let is_place = &**name == WindowCoordinates::default().input();
+        self.built_in(name, if is_place { window.input() } else { name }, storage, kind)
     }
 
     /// Declares a built-in variable where the program uses it.
@@ -295,9 +298,10 @@ impl Compiler {
         self.built_in(name, storage, kind)
     }
 
-    fn built_in(&mut self, name: &Name, storage: StorageQualifier, kind: Type) -> Result<(), Refusal> {
+    /// Declares a built-in variable, which the host calls `outside`.
+    fn built_in(&mut self, name: &Name, outside: &str, storage: StorageQualifier, kind: Type) -> Result<(), Refusal> {
         let slot = self.allocate(&kind)?;
-        self.exchange(storage, name, &kind, slot)?;
+        self.exchange(storage, outside, &kind, slot)?;
         // As long as a host says nothing else, the depth range is that of OpenGL's initial state.
         if &**name == "gl_DepthRange" {
             self.defaults.extend([(slot + 1, 1.0), (slot + 2, 1.0)]);

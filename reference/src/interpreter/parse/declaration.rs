@@ -102,6 +102,8 @@ impl Parser<'_> {
                 "location" if self.text(1) == "=" => {
                     qualifiers.location = self.text(2).parse().ok().or(qualifiers.location);
                 }
+                "origin_upper_left" => qualifiers.window.from_top = true,
+                "pixel_center_integer" => qualifiers.window.in_whole_pixels = true,
                 "std140" => qualifiers.is_std140 = true,
                 "offset" | "align" | "row_major" => qualifiers.is_placed = true,
                 "(" => depth += 1,

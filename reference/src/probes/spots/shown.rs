@@ -3,7 +3,7 @@
 use super::Spot;
 use super::handed::{HandedAround, handed_at, known};
 use crate::equation::DISCARDED;
-use crate::interpreter::Scalar;
+use crate::interpreter::{Scalar, WindowCoordinates};
 use crate::pipeline::{Pipeline, UniformsOf, scalars, slices};
 use crate::probes::{Probe, ProbeSet};
 use crate::scene::Vertex;
@@ -116,11 +116,14 @@ impl Assignment {
         let mut given: Vec<(&str, Vec<Vec<f64>>)> = Vec::new();
         for (place, input) in program.inputs().iter().enumerate() {
             let columns = match input.name.as_str() {
-                "gl_FragCoord" => (0..4)
+                name if let Some(window) = WindowCoordinates::of(name) => (0..4)
                     .map(|axis| {
                         column(&|lane| {
-                            let at = spots[lane.spot].place[axis];
-                            at + lane.beside.get(axis).copied().unwrap_or_else(|| lane.moved(at, axis) - at)
+                            let Spot { place, window: [_, rows], .. } = spots[lane.spot];
+                            let at = place[axis];
+                            let there =
+                                at + lane.beside.get(axis).copied().unwrap_or_else(|| lane.moved(at, axis) - at);
+                            window.along(axis, there, *rows)
                         })
                     })
                     .collect(),
