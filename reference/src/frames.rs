@@ -193,9 +193,12 @@ impl Assignment {
                 cull: instance.draw.cull,
             })
             .collect();
-        let mut visible = Visible::new(width, height);
+        let mut visible = Visible::new(width, height).with_depths_of_its_own(pipeline.depth.is_some());
         visible.draw(&drawn);
-        (visible, Scenery { assignment: self, pipeline, shapes, local: None })
+        drop(drawn);
+        let scenery = Scenery { assignment: self, pipeline, shapes, local: None };
+        scenery.settle(&mut visible);
+        (visible, scenery)
     }
 
     /// The vertices of a draw after the vertex stage.

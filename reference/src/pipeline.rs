@@ -14,6 +14,9 @@ use std::sync::Arc;
 /// Where the position of a vertex stands.
 pub const POSITION: &str = "gl_Position";
 
+/// Where a fragment stage writes its depth.
+const DEPTH: &str = "gl_FragDepth";
+
 /// Two stages that fit.
 #[derive(Clone, Debug)]
 pub struct Pipeline {
@@ -24,6 +27,8 @@ pub struct Pipeline {
     pub(crate) varyings: Vec<Varying>,
     /// The output of the fragment stage that is seen.
     pub(crate) colour: usize,
+    /// The output that is the depth, where the fragment stage writes one.
+    pub(crate) depth: Option<usize>,
     pub(crate) nature: Nature,
     /// Where red, green and blue come from, if they are only handed on.
     pub(crate) copied: Option<[PassedChannel; 3]>,
@@ -94,12 +99,13 @@ impl Pipeline {
                 Some(PassedChannel::Varying(varying.scalars.start + scalar))
             }
         };
-        let copied = fragment.copies().and_then(|copies| {
+        let depth = fragment.outputs().iter().position(|output| output.name == DEPTH);
+        let copied = fragment.copies().filter(|_| depth.is_none()).and_then(|copies| {
             let channel = |at: usize| copies[colour].get(at).map_or(Some(PassedChannel::Constant(0.0)), handed);
             Some([channel(0)?, channel(1)?, channel(2)?])
         });
         let (vertex, nature) = (Arc::clone(vertex), fragment.nature());
-        Ok(Self { vertex, fragment: Arc::clone(fragment), varyings, colour, nature, copied })
+        Ok(Self { vertex, fragment: Arc::clone(fragment), varyings, colour, depth, nature, copied })
     }
 
     /// Whether a fragment depends on its neighbours: by derivatives, or by lookups that choose a level or a filter.
@@ -129,7 +135,7 @@ impl Pipeline {
 
 /// The output that the window shows.
 fn seen(outputs: &[ProgramVariable], name: Option<&str>) -> Result<usize, Text> {
-    let own = || outputs.iter().enumerate().filter(|(_, output)| output.name != "gl_FragDepth");
+    let own = || outputs.iter().enumerate().filter(|(_, output)| output.name != DEPTH);
     let found = match name {
         Some(name) => own().find(|(_, output)| output.name == name),
         None => own().find(|(_, output)| output.location == Some(0)).or_else(|| own().next()),

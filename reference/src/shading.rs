@@ -1,5 +1,6 @@
 //! The colours of what is seen: the fragment stage, run for the pixels that a triangle covers.
 
+mod depth;
 mod fragments;
 
 use crate::interpreter::{NotedLookup, Outputs, Program, Texels, Texture, UndefinedCause};
@@ -143,14 +144,24 @@ impl Scenery<'_> {
 
     /// What the fragments of these pixels come to.
     fn pixels(&self, visible: &Visible, pixels: &[u32], shake: Shake) -> Vec<Shaded> {
+        self.each(visible, pixels, Shaded::Discarded, &|surface, chunk| self.run(visible, surface, chunk, shake))
+    }
+
+    /// What `run` makes of the fragments of these pixels, for each pixel; `nothing` where there is none.
+    fn each<T: Copy>(
+        &self,
+        visible: &Visible,
+        pixels: &[u32],
+        nothing: T,
+        run: &dyn Fn(u32, &[Fragment]) -> Vec<T>,
+    ) -> Vec<T> {
         let fragments = self.fragments(visible, pixels);
-        let mut all = vec![Shaded::Discarded; pixels.len()];
+        let mut all = vec![nothing; pixels.len()];
         // Triangles are numbered surface by surface.
         for own in fragments.chunk_by(|a, b| a.surface(visible) == b.surface(visible)) {
             for chunk in own.chunks(CHUNK) {
-                let colours = self.run(visible, own[0].surface(visible), chunk, shake);
-                for (fragment, colour) in chunk.iter().zip(colours) {
-                    fragment.pixel.into_iter().for_each(|place| all[place as usize] = colour);
+                for (fragment, found) in chunk.iter().zip(run(own[0].surface(visible), chunk)) {
+                    fragment.pixel.into_iter().for_each(|place| all[place as usize] = found);
                 }
             }
         }
@@ -214,7 +225,8 @@ impl Scenery<'_> {
         chunks.find_map(|chunk| {
             let outputs = self.outputs(visible, chunk[0].surface(visible), chunk, Shake::default(), false)?;
             let is_seen = |at: usize| chunk[at].pixel.is_some() && !outputs.discarded[at];
-            outputs.outputs.get(self.pipeline.colour)?.first_undefined(is_seen)
+            let seen = [Some(self.pipeline.colour), self.pipeline.depth].into_iter().flatten();
+            seen.filter_map(|place| outputs.outputs.get(place)).find_map(|output| output.first_undefined(is_seen))
         })
     }
 

@@ -82,7 +82,7 @@ impl Visible {
 
     /// Whether a triangle's edge is not hidden at a pixel: by what is nearer or, where nothing is tested, by what comes later.
     fn is_seen(&self, number: usize, pixel: usize, x: f64, y: f64) -> bool {
-        let Some(other) = self.number(pixel) else { return true };
+        let Some(other) = self.number(pixel).filter(|_| !self.is_open) else { return true };
         let setup = &self.setups[number];
         if self.tests[setup.surface as usize].is_none() || self.depths.is_empty() {
             return other as usize <= number;

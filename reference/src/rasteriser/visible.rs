@@ -39,6 +39,8 @@ pub struct Visible {
     pub coverage: Vec<Coverage>,
     /// Whether a surface's pixels are tested, and how.
     pub(super) tests: Vec<Option<DepthTest>>,
+    /// Whether the fragment stage writes the depths: any edge may then be seen.
+    pub(super) is_open: bool,
 }
 
 /// The depths of surfaces, each moved by a polygon offset (factor and units), row by row, the lowest first; 1 where nothing is drawn.
@@ -80,7 +82,13 @@ impl Visible {
             doubtful: HashSet::new(),
             coverage: vec![Coverage::Outside; count],
             tests: Vec::new(),
+            is_open: false,
         }
+    }
+
+    /// The same where the fragment stage writes the depths, if it does.
+    pub fn with_depths_of_its_own(self, is_open: bool) -> Self {
+        Self { is_open, ..self }
     }
 
     /// Width and height in pixels.
@@ -192,6 +200,44 @@ impl Visible {
     /// The triangles that are drawn.
     pub fn setups(&self) -> &[Setup] {
         &self.setups
+    }
+
+    /// How what a pixel shows is tested.
+    pub fn test_at(&self, pixel: usize) -> Option<DepthTest> {
+        self.at(pixel).and_then(|setup| self.tests[setup.surface as usize])
+    }
+
+    /// For each pixel the first triangle that covers it, in the order in which they are drawn; then the second one, and so on.
+    pub fn layers(&mut self, most: usize) -> Vec<Vec<Option<u32>>> {
+        let mut layers: Vec<Vec<Option<u32>>> = Vec::new();
+        let mut covered = vec![0_usize; self.hits.len()];
+        for number in 0..self.setups.len() {
+            let outline = std::mem::take(&mut self.setups[number].outline);
+            self.each_pixel(&outline, |visible, pixel, _, _| {
+                let layer = covered[pixel];
+                covered[pixel] += 1;
+                if layer == layers.len() && layer < most {
+                    layers.push(vec![None; visible.hits.len()]);
+                }
+                if let Some(layer) = layers.get_mut(layer) {
+                    layer[pixel] = Some(number as u32);
+                }
+            });
+            self.setups[number].outline = outline;
+        }
+        layers
+    }
+
+    /// Shows these triangles, pixel by pixel.
+    pub fn show(&mut self, shown: &[Option<u32>]) {
+        for ((hit, coverage), number) in self.hits.iter_mut().zip(&mut self.coverage).zip(shown) {
+            *hit = number.map_or(0, |number| number + 1);
+            *coverage = match (*coverage, number) {
+                (Coverage::Silhouette, _) => Coverage::Silhouette,
+                (_, Some(_)) => Coverage::Interior,
+                (_, None) => Coverage::Outside,
+            };
+        }
     }
 
     /// Takes triangles away where fragments were thrown away, and shows there what lies behind. `gone`: for each pixel the

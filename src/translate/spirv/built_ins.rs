@@ -65,6 +65,7 @@ fn decoration_of(code: &SpirvCode, which: u32) -> Option<usize> {
 pub(super) fn draw_parameters(code: &mut SpirvCode) -> Vec<u32> {
     let mut found = Vec::new();
     let is_fragment = code.is_fragment();
+    let used: HashSet<u32> = code.functions.iter().flat_map(|one| one.operands.iter().copied()).collect();
     for instruction in code.heads.iter_mut().filter(|i| i.opcode == op::DECORATE) {
         let [id, decoration::BUILT_IN, which] = &mut instruction.operands[..] else { continue };
         match *which {
@@ -75,6 +76,8 @@ pub(super) fn draw_parameters(code: &mut SpirvCode) -> Vec<u32> {
             built_in::LAYER | built_in::VIEWPORT_INDEX | built_in::POINT_COORD => found.push(*id),
             built_in::SAMPLE_ID..=built_in::SAMPLE_MASK | built_in::HELPER_INVOCATION => found.push(*id),
             built_in::CLIP_DISTANCE | built_in::CULL_DISTANCE if is_fragment => found.push(*id),
+            // What is declared and not written is the surface's own.
+            built_in::FRAG_DEPTH if !used.contains(id) => found.push(*id),
             _ => {}
         }
     }

@@ -5,7 +5,7 @@ mod expressions;
 
 use super::{CheckResult, listed};
 use crate::Text;
-use crate::assignment::{AssignmentError, HandedIn, MANIFEST, Output, error};
+use crate::assignment::{AssignmentError, HandedIn, Output, error};
 use crate::equation::Reads;
 use crate::interpreter::{Cell, Draft, Formula, Refusal, Stage, StoredOutput, Type};
 use crate::manifest;
@@ -17,9 +17,6 @@ const MAX_DEFINITIONS: usize = 64;
 
 /// What `gl_Position` is given is the position.
 const POSITION: &str = "gl_Position";
-
-/// What it writes is not what covers a pixel in the expected pictures.
-const DEPTH: &str = "gl_FragDepth";
 
 /// What a whole program shows, as a program: the definitions of a solution whose own cannot be told apart.
 const SHOWN_COLOUR: &str = "shown_colour";
@@ -46,15 +43,6 @@ impl<'a> CheckedSolution<'a> {
         pipeline: &Pipeline,
         constants: &[manifest::Constant],
     ) -> CheckResult<Self> {
-        if let Some(depth) = pipeline.fragment.outputs().iter().find(|output| output.name == DEPTH) {
-            let file = files.iter().find(|file| file.stage == Stage::Fragment);
-            let message = both(
-                "`gl_FragDepth` is not supported in a solution: what covers what is decided before the fragment stage runs",
-                "模範解答では `gl_FragDepth` を使えません。何が手前にあるかは、フラグメントシェーダの実行前に決まります",
-            );
-            let file = file.map_or(MANIFEST, |file| &file.solution.name);
-            return Err(error(place(file, depth.line), message));
-        }
         let names: Vec<&str> = constants.iter().map(|constant| constant.name.as_str()).collect();
         let why = match files {
             [file] => match Self::of_definitions(file, &names) {

@@ -275,6 +275,10 @@ impl Compiler {
         let (storage, known) = known.ok_or_else(|| {
             self.limit(both(format!("there is no `{name}` here"), format!("ここでは `{name}` を使えません")))
         })?;
+        // Where it is not written the depth is the surface's: it is declared where it is used.
+        if &**name == "gl_FragDepth" {
+            return Ok(());
+        }
         let kind = if kind.slots().is_some() { kind } else { known };
         let is_place = &**name == WindowCoordinates::default().input();
         self.built_in(name, if is_place { window.input() } else { name }, storage, kind)
