@@ -2,6 +2,7 @@
 
 use crate::ffi::opengl::{Driver, OpenglDraw, Rejection, ValueKind, Version, Window};
 use crate::render::{DrawCall, RenderScene};
+use crate::translate::INSTANCE_NUMBER;
 use reference::assignment::HandedIn;
 use reference::interpreter::Stage;
 use reference::interpreter::{Scalar, Texture, Type};
@@ -110,7 +111,14 @@ pub fn frame(
     };
     let textures: Vec<Texture> = assignment.textures.iter().enumerate().map(texture).collect();
     let textures: Vec<(&str, &Texture)> = textures.iter().map(|texture| ("", texture)).collect();
-    let draws: Vec<OpenglDraw> = scene.frames[frame].iter().map(draw).collect();
+    let mut draws: Vec<OpenglDraw> = Vec::new();
+    for own in scene.frames[frame].iter().map(draw) {
+        match draws.last_mut() {
+            // What is given the same uniforms a program draws as instances at once, and `gl_InstanceID` counts them.
+            Some(last) if instance(&own) == last.instances && own.uniforms == last.uniforms => last.instances += 1,
+            _ => draws.push(own),
+        }
+    }
     let drawn = driver.scene(texts, &draws, &textures, window, 1)?.remove(0);
     let rows = drawn.chunks_exact(width).rev().flatten();
     Ok(rows.map(|pixel| pixel.map(|channel| (channel * 255.0).round() as u8)).collect())
@@ -164,7 +172,14 @@ fn draw(batch: &DrawCall) -> OpenglDraw {
         triangles: batch.triangles.clone(),
         depth_test: batch.state.depth_test,
         cull: batch.state.cull,
+        instances: 1,
     }
+}
+
+/// The number of the instance that a draw is.
+fn instance(draw: &OpenglDraw) -> u32 {
+    let numbers = draw.attributes.iter().find(|(name, ..)| name == INSTANCE_NUMBER);
+    numbers.and_then(|(.., numbers)| numbers.first()).map_or(0, |number| *number as u32)
 }
 
 fn kind(kind: &Type) -> ValueKind {

@@ -36,7 +36,7 @@ pub use entry::{CAPTURE_GROUP, CAPTURE_HEADER, CAPTURE_SLOT, StageVariable};
 pub use fuel::{LoopFuel, MAX_TURNS};
 pub(crate) use interface::place;
 pub use interface::{LinkedInterface, Variable};
-pub use module::{Shader, VERTEX_NUMBER, unsupported};
+pub use module::{INSTANCE_NUMBER, Shader, VERTEX_NUMBER, unsupported};
 pub use program::{HomeworkProgram, Linked, ProgramRefusal};
 pub use spirv::{
     CommonTexture, DESCRIPTION, InputInterpolation, InterfaceQualifiers, LineTable, TEXTURES, descriptions,

@@ -236,9 +236,15 @@ impl Interface {
             let all = self.uniforms.iter().enumerate();
             all.filter_map(|(number, uniform)| Some((number, uniform, uniform.place.as_ref()?.offset_in(block)?)))
         };
-        let is_open = |own: &ProgramVariable| {
-            own.place.as_ref().is_some_and(|place| is_filled(&place.block))
-                && !self.uniforms.iter().any(|uniform| uniform.is(own) && uniform.kind == own.kind)
+        in_block().next()?;
+        let is_real = |kind: &Type| matches!(kind.scalar(), Some(Scalar::Float | Scalar::Double));
+        let number_at = |at: u32| {
+            in_block().filter(|(_, uniform, _)| is_real(&uniform.kind) == is_real(&own.kind)).find_map(
+                |(place, uniform, begin)| {
+                    let number = std140::numbers(&uniform.kind).iter().position(|number| begin + number == at)?;
+                    Some((place, number))
+                },
+            )
         };
         Some(UniformSource::Numbers(std140::numbers(&own.kind).iter().map(|at| number_at(offset + at)).collect()))
     }
@@ -280,11 +286,12 @@ impl Interface {
     ) -> Option<Outputs> {
         let mut given: Vec<(&str, Vec<Vec<f64>>)> = Vec::new();
         for input in program.inputs() {
-            let numbers = || vertices.iter().map(|vertex| f64::from(vertex.number)).collect();
+            let numbers = |of: fn(&Vertex) -> u32| vertices.iter().map(|vertex| f64::from(of(vertex))).collect();
             let own = self.inputs.iter().find(|own| own.name == input.name);
             let columns = match own {
                 Some(own) => own.stream.columns(&own.kind, input, vertices),
-                None if input.name == "gl_VertexID" => vec![numbers()],
+                None if input.name == "gl_VertexID" => vec![numbers(|vertex| vertex.number)],
+                None if input.name == "gl_InstanceID" => vec![numbers(|vertex| vertex.instance)],
                 None => continue,
             };
             given.push((&input.name, columns));

@@ -83,6 +83,18 @@ pub struct Draw {
     pub cull: Cull,
 }
 
+impl Draw {
+    /// Its instances as draws of one instance each, whose vertices know its number: `gl_InstanceID` is read.
+    fn numbered(self) -> Vec<Self> {
+        let one = |number: u32| {
+            let mut mesh = Mesh::clone(&self.mesh);
+            mesh.vertices.iter_mut().for_each(|vertex| vertex.instance = number);
+            Self { instances: 1, mesh: Arc::new(mesh), ..self.clone() }
+        };
+        (0..self.instances).map(one).collect()
+    }
+}
+
 /// How an object stands in the world.
 #[derive(Clone, Debug)]
 pub enum Model {
@@ -155,6 +167,13 @@ pub struct Instance<'a> {
 }
 
 impl Scene {
+    /// Lets vertices know the number of their instance.
+    pub(crate) fn number_instances(&mut self) {
+        for view in &mut self.views {
+            view.draws = std::mem::take(&mut view.draws).into_iter().flat_map(Draw::numbered).collect();
+        }
+    }
+
     /// The pose of the course's own view at fraction `t` of the cycle.
     pub fn pose(&self, t: f64) -> Pose {
         self.pose_of(0, t)

@@ -71,7 +71,7 @@ impl<'a> VertexColumns<'a> {
             let count = input.kind.slots().unwrap_or(0);
             let columns: Vec<&[f64]> = match given {
                 _ if input.name == "gl_VertexID" => vec![&self.numbers],
-                _ if input.name.starts_with("gl_") => continue,
+                None if input.name.starts_with("gl_") => continue,
                 Some((_, columns)) => columns.iter().take(count).map(Vec::as_slice).collect(),
                 None => {
                     [&self.zeros, &self.zeros, &self.zeros, &self.ones].map(Vec::as_slice).repeat(count.div_ceil(4))

@@ -4,7 +4,7 @@
 //! built-in outputs; the student's own inputs and outputs are private variables (see [`super::spirv`]). Here that wrapper
 //! is made to
 //! - fill the inputs that the program feeds, part by part ([`parts`]); every other input has the value that OpenGL gives
-//!   it when the program sets nothing (0, 0, 0, 1; `gl_InstanceID` = 0);
+//!   it when the program sets nothing (0, 0, 0, 1);
 //! - tell in the header of a storage buffer which loop ran out of fuel (see [`super::fuel`]), 0 where none did; whoever
 //!   runs after the first to say so finds no fuel, so that they all end quickly;
 //! - hand over what `main` wrote: a vertex stage by the same buffer ([`vertex`]), a fragment stage as the colours of its

@@ -105,8 +105,10 @@ impl Shader {
     }
 }
 
-/// The input that every vertex has beside those of the homework: its place in its mesh.
+/// An input that every vertex has beside those of the homework: its place in its mesh.
 pub const VERTEX_NUMBER: &str = "gl_VertexID";
+/// Another: the number of the instance that it is drawn in.
+pub const INSTANCE_NUMBER: &str = "gl_InstanceID";
 
 /// How a stage is built.
 #[derive(Clone, Debug)]
@@ -149,7 +151,8 @@ pub(super) fn build(
             entry::leave_unset(&mut module, &inputs);
             let is_fed = |part: &AttributePart| {
                 let name = &part.attribute.name;
-                name == VERTEX_NUMBER || interface.inputs.iter().any(|input| input.name == *name)
+                [VERTEX_NUMBER, INSTANCE_NUMBER].contains(&name.as_str())
+                    || interface.inputs.iter().any(|input| input.name == *name)
             };
             inputs.retain(is_fed);
             if let Some(wanted) = &how.outputs {

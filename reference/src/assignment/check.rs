@@ -56,6 +56,9 @@ pub(super) fn assignment(
     }
     let mut solution = CheckedSolution::read(&files, &pipeline, &m.constant)?;
     let mut scene = scene::scene(&m.scene, folder, place_at)?;
+    if pipeline.vertex.inputs().iter().any(|input| input.name == "gl_InstanceID") {
+        scene.number_instances();
+    }
     let textures = textures::textures(&m.texture, scene.all_poses().len(), folder, place_at)?;
     let interface = interface::interface(&m, &textures, &stages, &solution, place_at)?;
     let free = interface::free(&m, &textures, &stages, place_at)?;

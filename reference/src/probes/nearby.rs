@@ -17,7 +17,7 @@ impl Assignment {
         let tangent = normal.any_orthonormal_vector();
         if let Some(before) = before {
             let vertex = Vertex::new(before.position.truncate(), normal).textured(before.texture_coordinates);
-            return Vertex { number: before.number, ..vertex.along(tangent, before.tangent.w) };
+            return vertex.along(tangent, before.tangent.w).numbered_as(&before);
         }
         let draws: Vec<_> = self.scene.views.iter().flat_map(|view| &view.draws).collect();
         let mesh = &draws[random.below(draws.len())].mesh;
@@ -26,6 +26,6 @@ impl Assignment {
         let aside = random.direction() * random.between(0.0, ASIDE) * (high - low).length();
         let coordinates = DVec2::new(random.between(0.0, 1.0), random.between(0.0, 1.0));
         let vertex = Vertex::new(own.position.truncate() + aside, normal).textured(coordinates);
-        Vertex { number: own.number, ..vertex.along(tangent, own.tangent.w) }
+        vertex.along(tangent, own.tangent.w).numbered_as(own)
     }
 }

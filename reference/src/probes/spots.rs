@@ -47,7 +47,7 @@ pub struct Spot {
     pub weights: [f64; 3],
     /// The same at the pixel to the right and at the one above.
     pub weights_beside: [[f64; 3]; 2],
-    /// `gl_FragCoord`.
+    /// `gl_FragCoord`, by OpenGL's own rules.
     pub place: [f64; 4],
     /// Width and height of the window that it lies in.
     pub window: [f64; 2],
@@ -172,7 +172,7 @@ impl Assignment {
             let moved = Vertex::new(vertex.position.truncate() + aside, apart * vertex.normal.truncate())
                 .textured(vertex.texture_coordinates + shift)
                 .along(apart * vertex.tangent.truncate(), vertex.tangent.w);
-            Vertex { number: vertex.number, ..moved }
+            moved.numbered_as(&vertex)
         });
         // Evenly over the triangle.
         let (along, across) = (random.between(0.0, 1.0).sqrt(), random.between(0.0, 1.0));

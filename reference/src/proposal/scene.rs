@@ -80,9 +80,13 @@ pub(super) fn propose(plan: &mut FolderPlan, test: Option<&ShaderTest>) {
     let is_window = std::ptr::eq(shape, &WINDOW);
     let mut lines = vec![format!("mesh = {} # see docs/assignment-toml.md for others", shape.mesh)];
     // Who tells backs from fronts wants to see them.
-    let is_kept = |line: &&&str| !(line.starts_with("cull") && tells_sides(plan));
+    let is_kept = |line: &&&str| !(line.starts_with("cull") && reads(plan, "gl_FrontFacing"));
     lines.extend(shape.more.iter().filter(is_kept).map(|line| (*line).to_owned()));
     lines.push(format!("eye = {}", shape.eye));
+    // Who reads the number of an instance wants to see several.
+    if reads(plan, "gl_InstanceID") && !lines.iter().any(|line| line.starts_with("instances")) {
+        lines.push("instances = 3".to_owned());
+    }
     lines.extend(
         ["target = [0, 0, 0]", "up = [0, 1, 0]", "fovy = 0.8 # radians", "near = 0.1", "far = 30"].map(str::to_owned),
     );
@@ -96,10 +100,9 @@ pub(super) fn propose(plan: &mut FolderPlan, test: Option<&ShaderTest>) {
     plan.guessed(format!("scene: {}: mesh = {said}", en.to_lowercase()), format!("scene: {ja}: mesh = {said}"));
 }
 
-/// Whether a solution reads which side of a triangle is seen.
-fn tells_sides(plan: &FolderPlan) -> bool {
-    let mut inputs = plan.sources.iter().flat_map(|source| source.program.inputs());
-    inputs.any(|input| input.name == "gl_FrontFacing")
+/// Whether a solution reads this input.
+fn reads(plan: &FolderPlan, name: &str) -> bool {
+    plan.sources.iter().flat_map(|source| source.program.inputs()).any(|input| input.name == name)
 }
 
 /// Whether a uniform changes with time.

@@ -15,6 +15,8 @@ pub struct Vertex {
     pub tangent: DVec4,
     /// Its number in the mesh.
     pub number: u32,
+    /// The number of the instance that it is drawn in.
+    pub instance: u32,
 }
 
 impl Vertex {
@@ -27,7 +29,13 @@ impl Vertex {
             texture_coordinates: DVec2::ZERO,
             tangent: DVec4::new(1.0, 0.0, 0.0, 1.0),
             number: 0,
+            instance: 0,
         }
+    }
+
+    /// The same vertex with the numbers of another.
+    pub fn numbered_as(self, other: &Self) -> Self {
+        Self { number: other.number, instance: other.instance, ..self }
     }
 
     /// The same vertex with texture coordinates.

@@ -36,6 +36,8 @@ pub struct OpenglDraw {
     pub depth_test: Option<DepthTest>,
     /// Which triangles are left out.
     pub cull: Cull,
+    /// How many instances are drawn at once.
+    pub instances: u32,
 }
 
 /// Where it is drawn.
@@ -158,7 +160,8 @@ impl Driver {
             switch(glow::CULL_FACE, draw.cull != Cull::None);
             gl.cull_face(if draw.cull == Cull::Front { glow::FRONT } else { glow::BACK });
             let corners = i32::try_from(corners.len()).expect("a count");
-            gl.draw_elements(glow::TRIANGLES, corners, glow::UNSIGNED_INT, 0);
+            let instances = i32::try_from(draw.instances).expect("a count");
+            gl.draw_elements_instanced(glow::TRIANGLES, corners, glow::UNSIGNED_INT, 0, instances);
             switch(glow::DEPTH_TEST, false);
             switch(glow::CULL_FACE, false);
             gl.bind_vertex_array(None);
@@ -191,10 +194,10 @@ impl Driver {
                 let of = |what| gl.get_active_uniforms_parameter(name, &[index as u32], what)[0];
                 let (block, offset, stride) =
                     (of(glow::UNIFORM_BLOCK_INDEX), of(glow::UNIFORM_OFFSET), of(glow::UNIFORM_MATRIX_STRIDE));
+                let block = own_block.map_or(block, |own| own as i32);
                 let (Ok(block), Ok(offset)) = (usize::try_from(block), usize::try_from(offset)) else { continue };
                 let offset = offset + element * usize::try_from(of(glow::UNIFORM_ARRAY_STRIDE)).unwrap_or_default();
                 let is_row_major = of(glow::UNIFORM_IS_ROW_MAJOR) != 0;
-                let block = own_block.map_or(block, |own| own as i32);
                 let size = gl.get_active_uniform_block_parameter_i32(name, block as u32, glow::UNIFORM_BLOCK_DATA_SIZE);
                 blocks.resize_with(blocks.len().max(block + 1), Vec::new);
                 blocks[block].resize(usize::try_from(size).expect("a size"), 0);
@@ -273,9 +276,6 @@ fn active_element(active: &[String], path: &str) -> Option<(usize, usize)> {
     Some((active.iter().position(|own| *own == first)?, element.parse().ok()?))
 }
 
-/// Columns of so many rows as rows.
-fn transposed(numbers: &[f64], rows: usize) -> Vec<f64> {
-    (0..rows).flat_map(|row| numbers.iter().skip(row).step_by(rows).copied()).collect()
 /// The name of a block that is one of an array, and the member as the driver lists it, which does so once for all of them.
 fn member_of_several(path: &str) -> Option<(&str, String)> {
     let (block, member) = path.split_once('.')?;
@@ -283,6 +283,9 @@ fn member_of_several(path: &str) -> Option<(&str, String)> {
     Some((block, format!("{name}.{member}")))
 }
 
+/// Columns of so many rows as rows.
+fn transposed(numbers: &[f64], rows: usize) -> Vec<f64> {
+    (0..rows).flat_map(|row| numbers.iter().skip(row).step_by(rows).copied()).collect()
 }
 
 fn components(kind: ValueKind) -> usize {

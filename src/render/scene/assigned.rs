@@ -70,6 +70,7 @@ fn weights_around(spot: &Spot) -> [[f64; 3]; 3] {
 /// Where fragments lie, as the fragment stage is told.
 fn places(spots: &[&Spot]) -> Vec<(String, Values)> {
     let places = spots.iter().flat_map(|spot| spot.place).collect();
+    let windows = spots.iter().flat_map(|spot| spot.window).collect();
     let fronts = spots.iter().map(|spot| f64::from(u8::from(spot.is_front))).collect();
     vec![
         ("gl_FragCoord".into(), Values { kind: Type::VEC4, numbers: places }),
@@ -110,9 +111,13 @@ impl DrawCall {
             let numbers = values.flat_map(|value| value.numbers().to_vec()).collect();
             (input.name.clone(), Values { kind: input.kind.clone(), numbers })
         };
-        let numbers = vertices.iter().map(|vertex| f64::from(vertex.number)).collect();
-        let number = (VERTEX_NUMBER.to_owned(), Values { kind: Type::INT, numbers });
-        let attributes = interface.inputs.iter().map(attribute).chain([number]).collect();
+        let number = |name: &str, of: fn(&Vertex) -> u32| {
+            let numbers = vertices.iter().map(|vertex| f64::from(of(vertex))).collect();
+            (name.to_owned(), Values { kind: Type::INT, numbers })
+        };
+        let numbers =
+            [number(VERTEX_NUMBER, |vertex| vertex.number), number(INSTANCE_NUMBER, |vertex| vertex.instance)];
+        let attributes = interface.inputs.iter().map(attribute).chain(numbers).collect();
         Self { uniforms, attributes, ..DrawCall::default() }
     }
 }

@@ -51,7 +51,7 @@ pub(super) fn rework(code: &mut SpirvCode, how: How<'_>, samplers: &SamplerTypes
     images::plain_types(code);
     built_ins::uncaught(code);
     let io = if is_split {
-        built_ins::number_as_input(code);
+        built_ins::numbers_as_inputs(code);
         io::find(code)
     } else {
         Vec::new()

@@ -178,6 +178,7 @@ pub fn sheets() -> Homework {
             triangles: triangles(seed == 1),
             depth_test: Some(DepthTest::Less),
             cull: if seed == 2 { Cull::Back } else { Cull::None },
+            instances: 1,
         }
     };
     let picture = |seed: u64, is_linear: bool, repeats: bool| Texels {

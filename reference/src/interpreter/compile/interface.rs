@@ -190,18 +190,16 @@ impl Compiler {
         if storage == StorageQualifier::Uniform {
             self.leaves(&block.name, &kind, slot)?;
             self.place_parts(first, block, &offsets);
-        } else if let Type::Struct(structure) = &kind {
-            let mut slot = slot;
-            for ((name, kind), (interpolation, line)) in structure.members.iter().zip(ways) {
-                self.builder.line = line;
-                self.exchange(storage, &format!("{}.{name}", block.name), kind, slot)?;
-                self.qualify(storage, interpolation, None);
-                if let Some(last) = self.last_exchanged(storage) {
-                    last.written = format!("{instance}.{name}");
-                }
-                slot += kind.slots().unwrap_or(0) as Slot;
+        } else {
+            self.block_parts(storage, [&block.name, instance], &kind, slot, &ways)?;
+            if matches!(kind, Type::Struct(_)) {
+                self.instances.push(Name::clone(instance));
             }
-            self.instances.push(Name::clone(instance));
+        }
+        self.scopes.declare(Name::clone(instance), Symbol::variable(kind, slot));
+        Ok(())
+    }
+
     /// Tells the host of the members of an input or output block, or of each block of an array: by the name of the block, and by that which
     /// the program has for it.
     fn block_parts(
@@ -234,16 +232,6 @@ impl Compiler {
             }
             _ => {}
         }
-        Ok(())
-    }
-
-        } else {
-            self.block_parts(storage, [&block.name, instance], &kind, slot, &ways)?;
-            if matches!(kind, Type::Struct(_)) {
-                self.instances.push(Name::clone(instance));
-            }
-        }
-        self.scopes.declare(Name::clone(instance), Symbol::variable(kind, slot));
         Ok(())
     }
 
@@ -299,7 +287,7 @@ impl Compiler {
                 format!("ここでは変数 `{name}` を使えません"),
             ))
         })?;
-        self.built_in(name, storage, kind)
+        self.built_in(name, name, storage, kind)
     }
 
     /// Declares a built-in variable, which the host calls `outside`.

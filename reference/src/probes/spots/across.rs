@@ -171,7 +171,7 @@ fn moved(vertex: Vertex, by: DVec3) -> Vertex {
     let moved = Vertex::new(position, vertex.normal.truncate())
         .textured(vertex.texture_coordinates)
         .along(vertex.tangent.truncate(), vertex.tangent.w);
-    Vertex { number: vertex.number, ..moved }
+    moved.numbered_as(&vertex)
 }
 
 #[cfg(test)]
