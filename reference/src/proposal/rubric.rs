@@ -124,6 +124,14 @@ fn worst(
     if let Some(weak) = footprints.lines().find(|line| footprints.of_line(*line).len() < fit::FEWEST) {
         return weak.checked_sub(before);
     }
+    // What leaves the colour open shows another picture on each machine.
+    let is_open = |line: &usize| {
+        let shown = alternatives.without(*line).unwrap_or_default();
+        2 * shown.iter().filter(|(colour, _)| colour.is_nan()).count() > shown.len()
+    };
+    if let Some(open) = (0..assignment.features.len()).find(is_open) {
+        return open.checked_sub(before);
+    }
     // What moves vertices is judged by the line of the shape.
     let moves = |line: &usize| {
         let mut shown = alternatives.without(*line).unwrap_or_default().iter().zip(&probes.probes);
