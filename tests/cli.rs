@@ -22,6 +22,8 @@ mod preview;
 mod proposals;
 #[path = "cli/refusals.rs"]
 mod refusals;
+#[path = "cli/solutions.rs"]
+mod solutions;
 #[path = "cli/written.rs"]
 mod written;
 

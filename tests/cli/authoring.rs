@@ -66,7 +66,7 @@ impl Written {
             .arg(&hand_in)
             .arg("--assignment")
             .arg(self.folder())
-            .args(["--format", "json", "--deadline", "20"])
+            .args(["--format", "json", "--deadline", "20", "--cross-check"])
             .output();
         serde_json::from_slice(&output.unwrap().stdout).unwrap()
     }
