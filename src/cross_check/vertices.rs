@@ -3,7 +3,9 @@
 use super::CrossCheck;
 use crate::language::Text;
 use crate::render::DrawCall;
+use reference::assignment::Interface;
 use reference::interpreter::{Mismatch, Outputs, Precision, Program, Run, Stopped};
+use reference::pipeline::UniformSource;
 
 /// Steps that one run may take: a tenth of a second or two, so that a second opinion does not make a grading late. That is
 /// 90,000 operations for each vertex of ggsample06, of which a usual answer takes 300.
@@ -16,8 +18,8 @@ const LACKING: [f64; 4] = [0.0, 0.0, 0.0, 1.0];
 pub(super) struct VertexColumns<'a> {
     /// By name, x, y, z and w.
     attributes: Vec<(&'a str, [Vec<f64>; 4])>,
-    /// By path, the scalars of a value.
-    uniforms: Vec<(&'a str, Vec<Vec<f64>>)>,
+    /// The scalars of each, in the order of the interface.
+    uniforms: Vec<Vec<Vec<f64>>>,
     /// The number of each vertex in its draw.
     numbers: Vec<f64>,
     /// Attributes that nobody sets are 0, 0, 0, 1.
@@ -43,28 +45,29 @@ impl<'a> VertexColumns<'a> {
             let column = |axis: usize| values().map(|numbers| of(numbers, axis)).collect();
             vertices.attributes.push((name, std::array::from_fn(column)));
         }
-        for (index, (name, value)) in first.uniforms.iter().enumerate() {
+        for (index, (_, value)) in first.uniforms.iter().enumerate() {
             let column = |scalar: usize| {
                 let each =
                     |batch: &&DrawCall| std::iter::repeat_n(batch.uniforms[index].1.numbers()[scalar], length(batch));
                 batches.iter().flat_map(each).collect()
             };
-            vertices.uniforms.push((name, (0..value.numbers().len()).map(column).collect()));
+            vertices.uniforms.push((0..value.numbers().len()).map(column).collect());
         }
         vertices.numbers = batches.iter().flat_map(|batch| (0..length(batch)).map(|number| number as f64)).collect();
         vertices
     }
 
     /// The outputs of all vertices, or why there are none.
-    pub fn run(&self, program: &Program, precision: Precision) -> Result<Outputs, CrossCheck> {
-        let fed =
-            self.feed(program).map_err(|mismatch| CrossCheck::not_run(Text::verbatim(mismatch.to_string()), None))?;
+    pub fn run(&self, program: &Program, interface: &Interface, precision: Precision) -> Result<Outputs, CrossCheck> {
+        let fed = self
+            .feed(program, interface)
+            .map_err(|mismatch| CrossCheck::not_run(Text::verbatim(mismatch.to_string()), None))?;
         let used_up = || Text::new("the interpreter used up its steps", "実行ステップ数の上限に達しました");
         let stopped = |at: Stopped| CrossCheck::not_run(used_up(), Some(at.line));
         fed.precision(precision).fuel(FUEL).outputs().map_err(stopped)
     }
 
-    fn feed<'b>(&'b self, program: &'b Program) -> Result<Run<'b>, Mismatch> {
+    fn feed<'b>(&'b self, program: &'b Program, interface: &Interface) -> Result<Run<'b>, Mismatch> {
         let mut run = program.run(self.numbers.len());
         for input in program.inputs() {
             let given = self.attributes.iter().find(|(name, _)| *name == input.name);
@@ -79,10 +82,22 @@ impl<'a> VertexColumns<'a> {
             };
             run = run.input(&input.name, &columns[..count.min(columns.len())])?;
         }
-        for (name, columns) in &self.uniforms {
-            if program.uniforms().iter().any(|uniform| uniform.name == *name) {
-                run = run.uniform_of_each(name, columns.iter().map(Vec::as_slice))?;
-            }
+        for own in program.uniforms() {
+            let zeros = &self.zeros;
+            let column = |place: usize, number: usize| {
+                self.uniforms.get(place).and_then(|columns| columns.get(number)).unwrap_or(zeros).as_slice()
+            };
+            run = match interface.source(own) {
+                None => run,
+                Some(UniformSource::Whole(place)) => {
+                    let count = own.kind.slots().unwrap_or(0);
+                    run.uniform_of_each(&own.name, (0..count).map(|number| column(place, number)))?
+                }
+                Some(UniformSource::Numbers(numbers)) => {
+                    let numbers = numbers.iter().map(|at| at.map_or(zeros.as_slice(), |(place, at)| column(place, at)));
+                    run.uniform_of_each(&own.name, numbers)?
+                }
+            };
         }
         Ok(run)
     }

@@ -99,7 +99,7 @@ impl Grader {
         let batches: Vec<&DrawCall> = scene.frames.iter().flatten().chain(&scene.probes).collect();
         let samples = rendering.frame_samples.iter().chain(&rendering.probe_samples);
         let samples: Vec<&[Sample]> = samples.map(Vec::as_slice).collect();
-        cross_check::check(&source.text, self.interface.colour(), &batches, &samples)
+        cross_check::check(&source.text, self.interface.colour(), &self.assignment.interface, &batches, &samples)
     }
 
     /// Whether a colour depends on what GLSL leaves undefined.

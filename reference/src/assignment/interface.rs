@@ -6,7 +6,7 @@ use crate::interpreter::{BlockPlace, ProgramVariable, Type};
 use crate::scene::Moment;
 
 /// What the handed-in stage is given and what it writes, by name.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Interface {
     /// Vertex attributes.
     pub inputs: Vec<Input>,
