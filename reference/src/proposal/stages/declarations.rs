@@ -12,13 +12,32 @@ pub(super) fn path_of_output(name: &str) -> String {
     }
 }
 
+/// What a block is called, and one of several with its number: `VS_OUT[1]` is `vs_out_[1]`.
 fn instance(block: &str) -> String {
-    format!("{}_", block.to_lowercase())
+    let (name, number) = block.split_at(block.find('[').unwrap_or(block.len()));
+    format!("{}_{number}", name.to_lowercase())
+}
+
+/// Declarations of the structures of a type that are not there yet, inner ones first.
+fn structures(kind: &Type, lines: &mut Vec<String>) {
+    match kind {
+        Type::Array(element, _) => structures(element, lines),
+        Type::Struct(own) => {
+            own.members.iter().for_each(|(_, member)| structures(member, lines));
+            let members: Vec<String> = own.members.iter().map(|(name, kind)| format!("    {kind} {name};")).collect();
+            let line = format!("struct {} {{\n{}\n}};", own.name, members.join("\n"));
+            if !lines.contains(&line) {
+                lines.push(line);
+            }
+        }
+        _ => {}
+    }
 }
 
 /// Declarations of variables between the stages, members of blocks together.
 pub(super) fn declared(variables: &[&ProgramVariable], storage: &str, version: u32) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
+    variables.iter().for_each(|variable| structures(&variable.kind, &mut lines));
     let mut blocks: Vec<(&str, Vec<String>)> = Vec::new();
     for variable in variables {
         let interpolation = match variable.interpolation {
@@ -39,8 +58,15 @@ pub(super) fn declared(variables: &[&ProgramVariable], storage: &str, version: u
         let location = location.map(|number| format!("layout(location = {number}) ")).unwrap_or_default();
         lines.push(format!("{location}{interpolation}{storage} {kind} {};", variable.name));
     }
-    for (block, members) in blocks {
-        lines.push(format!("{storage} {block} {{\n{}\n}} {};", members.join("\n"), instance(block)));
+    for (block, members) in &blocks {
+        // Several of one array are declared together, by the first.
+        let name = block.strip_suffix("[0]").unwrap_or(block);
+        if name.ends_with(']') {
+            continue;
+        }
+        let count = blocks.iter().filter(|(other, _)| other.split('[').next() == Some(name)).count();
+        let several = if name == *block { String::new() } else { format!("[{count}]") };
+        lines.push(format!("{storage} {name} {{\n{}\n}} {}{several};", members.join("\n"), instance(name)));
     }
     lines
 }
@@ -54,7 +80,8 @@ pub(super) fn fragment_of(source: &SolutionFile) -> String {
         [] => "vec4(0.9, 0.6, 0.3, 1.0)".to_owned(),
         [one] if one.kind == Type::VEC4 => name(one),
         many => {
-            let shown: Vec<String> = many.iter().filter_map(|output| shown(&name(output), output)).collect();
+            let shown: Vec<String> =
+                many.iter().filter_map(|output| shown(&name(output), &output.name, &output.kind)).collect();
             match &shown[..] {
                 [] => "vec4(0.9, 0.6, 0.3, 1.0)".to_owned(),
                 [one] => format!("vec4({one}, 1.0)"),
@@ -69,10 +96,15 @@ pub(super) fn fragment_of(source: &SolutionFile) -> String {
     format!("{}\n\nvoid main()\n{{\n    {output} = {colour};\n}}\n", head.join("\n"))
 }
 
-/// An output as a `vec3` of colours.
-fn shown(path: &str, output: &ProgramVariable) -> Option<String> {
-    let name = NameWords::of(&output.name);
-    let kind = &output.kind;
+/// An output as a `vec3` of colours; a structure by its members.
+fn shown(path: &str, name: &str, kind: &Type) -> Option<String> {
+    if let Type::Struct(structure) = kind {
+        let members = structure.members.iter();
+        let all: Vec<String> =
+            members.filter_map(|(name, kind)| shown(&format!("{path}.{name}"), name, kind)).collect();
+        return (!all.is_empty()).then(|| format!("({}) / {}.0", all.join(" + "), all.len()));
+    }
+    let name = NameWords::of(name);
     let three = match kind {
         Type::Vector(Scalar::Float, 1) => format!("vec3({path})"),
         Type::Vector(Scalar::Float, 2) => format!("vec3({path}, 0.5)"),

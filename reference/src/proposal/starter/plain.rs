@@ -18,15 +18,8 @@ pub(super) fn assigned(source: &SolutionFile, name: &str, kind: &Type) -> Option
 
 /// An output as the file calls it: `Frame.uv` is `vs_out.uv` where the block has that name there.
 pub(super) fn path_in(source: &SolutionFile, name: &str) -> String {
-    let words = source.words();
-    let instance = |block: &str| {
-        let start = words.windows(2).position(|pair| pair[0].text == block && pair[1].text == "{")?;
-        let end = words[start..].iter().position(|word| word.text == "}")?;
-        words.get(start + end + 1).filter(|word| word.is_name).map(|word| word.text.clone())
-    };
-    let parts = name.split_once('.');
-    let own = parts.and_then(|(block, member)| Some(format!("{}.{member}", instance(block)?)));
-    own.unwrap_or_else(|| name.to_owned())
+    let own = source.program.outputs().iter().find(|output| output.name == name);
+    own.map_or(name, |output| &output.written).to_owned()
 }
 
 /// The position as the mesh has it.
@@ -56,6 +49,10 @@ pub(super) fn plain(kind: &Type, is_seen: bool) -> Option<String> {
         Type::Array(element, Some(length)) => {
             let one = plain(element, is_seen)?;
             format!("{kind}({})", vec![one; *length].join(", "))
+        }
+        Type::Struct(structure) => {
+            let members: Option<Vec<String>> = structure.members.iter().map(|(_, kind)| plain(kind, is_seen)).collect();
+            format!("{kind}({})", members?.join(", "))
         }
         _ => return None,
     })

@@ -83,7 +83,7 @@ fn outputs(source: &SolutionFile, functions: &[FunctionText], lines: &RangeInclu
     let mut all = Vec::new();
     for output in source.program.outputs() {
         let name = path_in(source, &output.name);
-        let name = name.split('.').next().unwrap_or(&name);
+        let name = name.split(['.', '[']).next().unwrap_or(&name);
         if is_written(name, true) && !is_written(name, false) {
             all.extend(assigned(source, &output.name, &output.kind));
         }
