@@ -56,6 +56,28 @@ fn each_block_of_an_array_is_filled() {
 }
 
 #[test]
+fn a_second_opinion_reads_a_block_as_an_answer_declares_it() {
+    let written = Written::from(&["lit.vert"]);
+    let named = [
+        ("vec4 ldiff; };", "vec4 ldiff; } light;"),
+        ("(lpos * p.w - p * lpos.w)", "(light.lpos * p.w - p * light.lpos.w)"),
+        ("* ldiff;", "* light.ldiff;"),
+        ("= lamb +", "= light.lamb +"),
+    ];
+    let renamed = [
+        ("vec4 lpos; vec4 lamb; vec4 ldiff;", "vec4 at; vec4 all[2];"),
+        ("(lpos * p.w - p * lpos.w)", "(at * p.w - p * at.w)"),
+        ("* ldiff;", "* all[1];"),
+        ("= lamb +", "= all[0] +"),
+    ];
+    for changes in [named, renamed] {
+        is_right(&written, &changes);
+        let found = &written.graded(&changes)["cross_check"];
+        assert_eq!(found["undefined"], 0, "{found:#}");
+    }
+}
+
+#[test]
 fn instances_are_counted() {
     let written = Written::from(&["flags.vert"]);
     assert!(written.text("assignment.toml").contains("instances = 3"));
@@ -70,6 +92,7 @@ fn instances_are_counted() {
 fn structures_and_arrays_of_blocks_go_from_stage_to_stage() {
     let written = Written::from(&["sieve.vert", "sieve.frag"]);
     written.tells("normalMatrix * aNormal", "aNormal");
+    Written::from(&["sieve.vert"]).grades();
     let named = [
         ("} from[2];", "} own[2];"),
         ("normalize(from[i].way)", "normalize(own[i].way)"),
