@@ -3,7 +3,7 @@
 use super::{HintCase, broken, check, diagnostics};
 use crate::diagnostic::Severity;
 
-const RULES: &[HintCase] = &[
+const TOLD: &[HintCase] = &[
     ("float cosine = ", "§switch (shine) { case 1: break; }\n  float cosine = ", "`int`", "`int`"),
     ("float cosine = ", "switch (1) { case 1: break; §case 1: break; }\n  float cosine = ", "same value", "同じ値"),
     ("float cosine = ", "int n = 2; float list[§n];\n  float cosine = ", "`const int`", "`const int`"),
@@ -13,7 +13,7 @@ const RULES: &[HintCase] = &[
 
 #[test]
 fn rules_are_told_in_words() {
-    RULES.iter().for_each(check);
+    TOLD.iter().for_each(check);
 }
 
 const NAMES: &[HintCase] = &[
