@@ -7,6 +7,7 @@ mod copies;
 mod declared;
 mod expressions;
 mod ingredients;
+mod inlined;
 mod size;
 mod undone;
 
@@ -187,7 +188,7 @@ impl Repairable {
                 ProgramRepair { is_slip: true, .. } => (2, size, rank),
                 _ => (3, if is_call { (0, true) } else { size }, rank),
             };
-            (size.0 <= LARGEST).then_some(((key, repair.mistake), repair))
+            (size.0 <= LARGEST).then_some(((key, !repair.is_slip, repair.mistake), repair))
         });
         let mut ranked: Vec<_> = ranked.collect();
         ranked.sort_by_key(|(key, _)| *key);

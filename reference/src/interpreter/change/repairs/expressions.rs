@@ -32,8 +32,12 @@ pub(super) fn of_expression(
         let place = ExpressionPlace::of(own, &path);
         let is_of_use = is_use(place.own, declared);
         let add = |mistake, expression| repair((number, &path), place.own, expression, mistake, is_of_use);
-        let undone = undone::changes(&place, theirs, &declared.members).into_iter();
-        found.extend(undone.map(|(mistake, expression)| (place.own.at, add(mistake, expression))));
+        let undone = undone::changes(&place, theirs, &declared.members).into_iter().map(|(mistake, expression)| {
+            let repair = add(mistake, expression);
+            // A place is divided by its last component where it is used.
+            ProgramRepair { is_of_use: repair.is_of_use && mistake != Operator::DivisorLeftOut, ..repair }
+        });
+        found.extend(undone.map(|repair| (place.own.at, repair)));
         let Some(kind) = guess(place.own, theirs) else { continue };
         let added = right.changes(&place, &kind, theirs).into_iter().map(|added| ProgramRepair {
             line: place.own.line,

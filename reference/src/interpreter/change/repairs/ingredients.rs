@@ -1,8 +1,9 @@
 //! What a right answer is made of, so that it can stand in another program.
 
 use super::super::programs::{guess, of_name};
-use super::super::tree::{ExpressionPlace, MetAs, TreeWalk, operands, paths, walk, with};
+use super::super::tree::{ExpressionPlace, MetAs, TreeWalk, paths, walk, with};
 use super::super::{Operator, bare, calls, floats, is_literal, written};
+use super::inlined::{bracketed, inlined, is_everywhere};
 use crate::interpreter::syntax::{BaseType, Binary, Expression, ExpressionKind, Item, Name, StatementKind};
 use crate::interpreter::types::Type;
 use crate::interpreter::{is_builtin, parse, text};
@@ -21,6 +22,8 @@ pub struct Ingredients {
     pub(super) values: Vec<Ingredient>,
     wrappers: Vec<Wrapper>,
     numbers: Vec<f64>,
+    /// Those that something is divided by.
+    divisors: Vec<f64>,
 }
 
 #[derive(Debug)]
@@ -66,8 +69,10 @@ impl Ingredients {
         let mut known = HashSet::new();
         found.wrappers.retain(|wrapper| known.insert((written(&wrapper.call), wrapper.hole)));
         found.numbers.extend(PLAIN);
-        found.numbers.sort_by(f64::total_cmp);
-        found.numbers.dedup();
+        for numbers in [&mut found.numbers, &mut found.divisors] {
+            numbers.sort_by(f64::total_cmp);
+            numbers.dedup();
+        }
         found
     }
 
@@ -129,6 +134,13 @@ impl Ingredients {
     fn of_place(&mut self, own: &Expression, typed: &[(Expression, Type)], given: &HashSet<Name>) {
         match &own.kind {
             ExpressionKind::Floating(number, _) => self.numbers.push(*number),
+            ExpressionKind::Chain(_, others) => {
+                let divisors = others.iter().filter_map(|(operator, _, other)| match (operator, &other.kind) {
+                    (Binary::Divide, ExpressionKind::Floating(number, _)) => Some(*number),
+                    _ => None,
+                });
+                self.divisors.extend(divisors);
+            }
             ExpressionKind::Call(name, arguments) if Type::named(name).is_none() && is_builtin(name) => {
                 let is_given = |one: &Expression| {
                     is_literal(one) || matches!(&bare(one).kind, ExpressionKind::Name(name) if given.contains(name))
@@ -214,6 +226,11 @@ impl Ingredients {
         let between = |operator, other: Expression| {
             Expression::made(own.line, ExpressionKind::Chain(Box::new(it()), vec![(operator, own.line, other)]))
         };
+        if is_addend {
+            let number = |number: &f64| Expression::made(own.line, ExpressionKind::Floating(*number, false));
+            let by = self.divisors.iter().map(|by| between(Binary::Divide, number(by)));
+            found.extend(by.map(|divided| plain(Operator::DivisorLeftOut, divided)));
+        }
         let their_values = theirs.iter().map(|(value, kind)| (value, kind, written(value)));
         let right_values = self
             .values
@@ -261,37 +278,4 @@ fn is_given_on(parent: &Expression) -> bool {
 
 fn is_named(expression: &Expression, name: &str) -> bool {
     matches!(&expression.kind, ExpressionKind::Name(own) if **own == *name)
-}
-
-fn bracketed(value: &Expression) -> Expression {
-    match &value.kind {
-        ExpressionKind::Chain(..) | ExpressionKind::Conditional(..) => {
-            Expression { kind: ExpressionKind::Comma(vec![value.clone()]), ..value.clone() }
-        }
-        _ => value.clone(),
-    }
-}
-
-/// An expression with what some names stand for in their place.
-fn inlined(expression: &Expression, locals: &[(Name, Expression)]) -> Expression {
-    let mut found = expression.clone();
-    // The innermost first: what is put there is not gone through again.
-    for path in paths(expression).into_iter().rev() {
-        if let ExpressionKind::Name(name) = &ExpressionPlace::of(expression, &path).own.kind
-            && let Some((_, value)) = locals.iter().rev().find(|(known, _)| known == name)
-        {
-            found = with(&found, &path, bracketed(value));
-        }
-    }
-    found
-}
-
-/// Whether an expression uses no functions of the program, which others do not have.
-fn is_everywhere(expression: &Expression) -> bool {
-    let is_known = match &expression.kind {
-        ExpressionKind::Call(name, _) => Type::named(name).is_some() || is_builtin(name),
-        ExpressionKind::Assign(..) | ExpressionKind::Step(..) => false,
-        _ => true,
-    };
-    is_known && operands(expression).into_iter().all(is_everywhere)
 }

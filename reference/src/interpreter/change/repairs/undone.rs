@@ -51,6 +51,15 @@ pub(super) fn changes(
         ExpressionKind::ArrayConstructor(kind, arguments) => {
             found.extend(exchange(arguments, &|other| ExpressionKind::ArrayConstructor(kind.clone(), other)));
         }
+        // What a matrix of perspective gives is divided by its last component.
+        ExpressionKind::Member(of, name)
+            if name.chars().all(|c| "xyz".contains(c)) && guess(of, names) == Some(Type::VEC4) =>
+        {
+            let last = ExpressionKind::Member(of.clone(), "w".into());
+            let by = vec![(Binary::Divide, own.line, Expression { kind: last, ..own.clone() })];
+            let divided = Expression { kind: ExpressionKind::Chain(Box::new(own.clone()), by), ..own.clone() };
+            found.push((Operator::DivisorLeftOut, divided));
+        }
         // Of a vector they are components.
         ExpressionKind::Member(of, name) if !matches!(guess(of, names), Some(Type::Vector(..))) => {
             let others = members.iter().filter(|other| *other != name);
@@ -60,7 +69,13 @@ pub(super) fn changes(
             };
             found.extend(others.map(|other| (Operator::OtherValue, member(other))));
         }
-        ExpressionKind::Chain(..) => found.extend(floating(own).map(|own| (Operator::WholeNumbers, own))),
+        ExpressionKind::Chain(first, others) => {
+            found.extend(floating(own).map(|own| (Operator::WholeNumbers, own)));
+            // What is turned round as a share of one.
+            if let (ExpressionKind::Floating(1.0, _), [(Binary::Subtract, _, other)]) = (&first.kind, &others[..]) {
+                found.push((Operator::Complement, other.clone()));
+            }
+        }
         _ => {}
     }
     if matches!(kind, Some(Type::Matrix(_, columns, rows)) if columns == rows) {
