@@ -17,7 +17,7 @@ pub(super) fn name(program: &Program, event: &Event) -> Option<String> {
 /// All of a stage: what it computes, sums of some addends of the largest sum, and what is computed several times under names in a row.
 pub(super) fn of_stage(stage: Stage, program: &Program, trace: &Trace) -> Vec<Quantity> {
     let mut all = computed(stage, program, trace);
-    all.extend(partial_sums(&all));
+    all.extend(partial_sums(program, trace, &all));
     all.extend(siblings(&all));
     all
 }
@@ -92,17 +92,21 @@ fn siblings(all: &[Quantity]) -> Vec<Quantity> {
 /// Most addends of a sum some of which may be added by themselves.
 const MOST_ADDENDS: usize = 6;
 
-/// Sums of some of the addends of the largest sum: a factor may stand before two terms of three.
-fn partial_sums(all: &[Quantity]) -> Vec<Quantity> {
-    let fits = |one: &Quantity| one.addends.iter().all(|(_, addend)| [1, one.turns[0].len()].contains(&addend.len()));
-    let sums = all.iter().filter(|one| (3..=MOST_ADDENDS).contains(&one.addends.len()) && fits(one));
-    let Some(whole) = sums.max_by_key(|one| one.addends.len()) else { return Vec::new() };
-    let count = whole.addends.len();
+/// Some of the addends of the largest sum, each with the factors that they have in common: a factor may stand before two terms of three,
+/// or before each of them.
+fn partial_sums(program: &Program, trace: &Trace, all: &[Quantity]) -> Vec<Quantity> {
+    let each = |one: &Quantity| one.events.last().map_or_else(Vec::new, |event| multiplied_out(program, trace, *event));
+    let fits = |one: &Quantity, addends: &[Addend]| {
+        let is_one = |(_, addend): &Addend| [1, one.turns[0].len()].contains(&addend.len());
+        (3..=MOST_ADDENDS).contains(&addends.len()) && addends.iter().all(is_one)
+    };
+    let sums = all.iter().map(|one| (one, each(one))).filter(|(one, addends)| fits(one, addends));
+    let Some((whole, addends)) = sums.max_by_key(|(_, addends)| addends.len()) else { return Vec::new() };
+    let count = addends.len();
     let width = whole.turns[0].len();
-    let chosen = (1_usize..(1 << count) - 1).filter(|chosen| chosen.count_ones() > 1);
     let sum = |chosen: usize| {
-        let addends: Vec<_> =
-            (0..count).filter(|at| chosen >> at & 1 == 1).map(|at| whole.addends[at].clone()).collect();
+        let addends: Vec<Addend> =
+            (0..count).filter(|at| chosen >> at & 1 == 1).map(|at| addends[at].clone()).collect();
         let mut total: ScalarColumns = vec![vec![0.0; addends[0].1[0].len()]; width];
         for (_, addend) in &addends {
             for (to, from) in total.iter_mut().zip(addend.iter().cycle()) {
@@ -122,14 +126,14 @@ fn partial_sums(all: &[Quantity]) -> Vec<Quantity> {
             events: events.collect(),
             turns: vec![total],
             is_bool: false,
-            is_partial: true,
+            is_partial: addends.len() > 1,
             is_leaf: false,
             is_interpolated: false,
             addends,
         }
     };
     let is_new = |one: &Quantity| !all.iter().any(|own| own.turns.iter().any(|turn| is_equal(turn, &one.turns[0])));
-    chosen.map(sum).filter(is_new).collect()
+    (1_usize..(1 << count) - 1).map(sum).filter(is_new).collect()
 }
 
 /// Adds a quantity; one that is there already only gets a name.
@@ -149,8 +153,39 @@ fn add(found: &mut Vec<Quantity>, quantity: Quantity) {
     }
 }
 
+/// A part of a sum, with the name of the variable that it is.
+type Addend = (Option<String>, ScalarColumns);
+
+/// What is added up to an event, where what multiplies a sum multiplies each of its addends.
+fn multiplied_out(program: &Program, trace: &Trace, event: usize) -> Vec<Addend> {
+    let own = &trace.events[event];
+    let each = |event: usize| multiplied_out(program, trace, event);
+    match (&program.sites()[own.site].what, &own.from[..]) {
+        (What::Binary(Binary::Add), operands) => operands.iter().flat_map(|operand| each(*operand)).collect(),
+        (What::Assign { .. }, [only]) => each(*only),
+        (What::Binary(Binary::Multiply), [a, b]) => {
+            let [of_a, of_b] = [each(*a), each(*b)];
+            let (sum, factor) = if of_a.len() > 1 { (of_a, *b) } else { (of_b, *a) };
+            let factor = &trace.events[factor].values;
+            let fits =
+                |one: &ScalarColumns| [one.len(), factor.len()].iter().all(|n| [1, own.values.len()].contains(n));
+            if sum.len() < 2 || !sum.iter().all(|(_, addend)| fits(addend)) {
+                return vec![(None, own.values.clone())];
+            }
+            sum.into_iter().map(|(_, addend)| (None, product(&addend, factor))).collect()
+        }
+        _ => addend(program, trace, event),
+    }
+}
+
+/// The product of two values, each a number or as many as the other one has.
+fn product(a: &ScalarColumns, b: &ScalarColumns) -> ScalarColumns {
+    let pairs = a.iter().cycle().zip(b.iter().cycle()).take(a.len().max(b.len()));
+    pairs.map(|(a, b)| a.iter().zip(b).map(|(a, b)| a * b).collect()).collect()
+}
+
 /// What is added up to an event, with the names of variables.
-fn addends(program: &Program, trace: &Trace, event: usize) -> Vec<(Option<String>, ScalarColumns)> {
+fn addends(program: &Program, trace: &Trace, event: usize) -> Vec<Addend> {
     let own = &trace.events[event];
     let site = &program.sites()[own.site];
     let is_sum = matches!(site.what, What::Binary(Binary::Add));
@@ -167,7 +202,7 @@ fn addends(program: &Program, trace: &Trace, event: usize) -> Vec<(Option<String
     }
 }
 
-fn addend(program: &Program, trace: &Trace, event: usize) -> Vec<(Option<String>, ScalarColumns)> {
+fn addend(program: &Program, trace: &Trace, event: usize) -> Vec<Addend> {
     let inner = addends(program, trace, event);
     if !inner.is_empty() {
         return inner;
