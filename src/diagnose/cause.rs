@@ -20,7 +20,7 @@ use reference::equation::{DISCARDED, Reads};
 use reference::fit::{Alternatives, FeatureExplanation, TermJudgement, judge_terms};
 use reference::mistake::{FoundMistake, Mistake};
 
-pub(super) use search::cause;
+pub(super) use search::{cause, is_there, leaves_little};
 use unexplained::with_features;
 pub use worth::{belongs, kept};
 

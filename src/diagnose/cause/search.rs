@@ -120,7 +120,7 @@ pub(in crate::diagnose) fn cause(evidence: &Evidence<'_>, shape: bool) -> Cause 
 }
 
 /// Whether a mistake costs more than half of all points: then whatever makes little of a right answer show may show the same.
-fn leaves_little(assignment: &Assignment, found: &FoundMistake) -> bool {
+pub(in crate::diagnose) fn leaves_little(assignment: &Assignment, found: &FoundMistake) -> bool {
     let kept: f64 = assignment.rubric.iter().map(|line| line.points * assignment.keeps(found, line)).sum();
     2.0 * kept < assignment.max_score()
 }
@@ -155,7 +155,7 @@ fn told_by_text(
 }
 
 /// Whether a sample has a given position, but for the factor that all have in common where they are right.
-pub(super) fn is_there<'e>(evidence: &'e Evidence<'_>) -> impl Fn(usize, DVec4) -> bool + 'e {
+pub(in crate::diagnose) fn is_there<'e>(evidence: &'e Evidence<'_>) -> impl Fn(usize, DVec4) -> bool + 'e {
     let scale = position_scale(evidence);
     move |place, position| {
         let sample = evidence.samples.get(place);

@@ -52,6 +52,11 @@ pub fn kept(assignment: &Assignment, line: &RubricLine, shape: bool, cause: &Cau
 /// The lines that a repaired mistake costs points: those that are about the variable that it is in; else those of which it spoils what
 /// they judge, but for terms that are right by themselves. Where it spoils none of these, such as a sum, all that are not right.
 pub(super) fn charged(assignment: &Assignment, terms: &[TermJudgement], repaired: &Repaired) -> Vec<String> {
+    // What the homework says of a mistake counts.
+    if !is_derived(&repaired.mistake.id) {
+        let lines = assignment.rubric.iter().filter(|line| repaired.mistake.keeps(&line.id) < 1.0);
+        return lines.map(|line| line.id.clone()).collect();
+    }
     let is_wrong = |line: &&RubricLine| terms.iter().any(|term| term.line == line.id && !term.is_right());
     let is_colour = |line: &&RubricLine| !assignment.judges_position(line);
     // What a fixed stage reads has its name, whatever stands for it in a right answer.

@@ -1,6 +1,9 @@
 //! What a right answer computes on its way.
 
 mod collect;
+mod leaves;
+
+pub(super) use leaves::leaves;
 
 use super::Place;
 use super::walk::made_of;
@@ -129,35 +132,27 @@ impl Quantities {
         a.computed_in == b.computed_in && !is_made(a, b) && !is_made(b, a)
     }
 
+    /// The variables that the right answer reads in a stage, each with what it, and what a part of it, has where it is first read; none
+    /// that is the same everywhere.
+    pub fn reads(&self, stage: Stage) -> Vec<(&str, &ScalarColumns)> {
+        let events = self.traces[stage as usize].iter().flat_map(|trace| &trace.events);
+        let mut found: Vec<(&str, &ScalarColumns)> = Vec::new();
+        for (event, what) in events.zip(&self.doings[stage as usize]) {
+            let What::Read(name) = what else { continue };
+            let is_it = |(known, values): &(&str, &ScalarColumns)| known == name && values.len() == event.values.len();
+            if !found.iter().any(is_it) {
+                found.push((name, &event.values));
+            }
+        }
+        found.retain(|(_, values)| !is_constant(values));
+        found
+    }
+
     /// Whether a value is given a name that the right answer gives another one.
     pub fn is_misnamed(&self, stage: Stage, what: &What, event: &Event) -> bool {
         let What::Assign { name, is_part: false } = what else { return false };
         let mut named = self.all.iter().filter(|own| own.stage == stage && own.names.contains(name)).peekable();
         named.peek().is_some() && !named.any(|own| own.turns.iter().any(|turn| is_same(event, turn)))
-    }
-
-    /// The values of the variables that a quantity is computed from in its expression.
-    pub fn made_from(&self, quantity: &Quantity) -> Vec<&ScalarColumns> {
-        self.leaves_of(quantity).map(|event| &event.values).collect()
-    }
-
-    /// Those of them that are computed, and not given.
-    pub fn needed_for(&self, quantity: &Quantity) -> Vec<&ScalarColumns> {
-        self.leaves_of(quantity).filter(|event| !event.from.is_empty()).map(|event| &event.values).collect()
-    }
-
-    fn leaves_of(&self, quantity: &Quantity) -> impl Iterator<Item = &Event> {
-        let trace = self.traces[quantity.computed_in as usize].as_ref();
-        let doings = &self.doings[quantity.computed_in as usize];
-        let first = trace.zip(quantity.events.first());
-        first.into_iter().flat_map(|(trace, event)| leaf_events(trace, *event, &|event| &doings[event]))
-    }
-
-    /// The values on the way to a quantity that differ from place to place.
-    pub fn way(&self, quantity: &Quantity) -> Vec<&ScalarColumns> {
-        let Some(trace) = &self.traces[quantity.computed_in as usize] else { return Vec::new() };
-        let way = made_of(trace, &quantity.events).into_iter().map(|event| &trace.events[event].values);
-        way.filter(|values| !is_constant(values)).collect()
     }
 
     /// The definitions as a variant of the equation has them; its colours.
@@ -186,6 +181,21 @@ impl Quantities {
     /// A right quantity that a value equals where it is computed, and not by chance.
     pub fn equal_to(&self, stage: Stage, event: &Event) -> Option<&Quantity> {
         self.all.iter().find(|own| own.is_equal_to(stage, event))
+    }
+
+    /// Whether a value is right: it equals a quantity, or a component of one, or several in a row.
+    pub fn is_right(&self, stage: Stage, event: &Event) -> bool {
+        self.equal_to(stage, event).is_some() || self.is_component(stage, event)
+    }
+
+    /// Whether a value equals a component of a quantity, or several in a row, and not by chance.
+    fn is_component(&self, stage: Stage, event: &Event) -> bool {
+        let width = event.values.len();
+        let is_it = |turn: &ScalarColumns| {
+            (width + 1..=4).contains(&turn.len()) && turn.windows(width).any(|part| is_same(event, &part.to_vec()))
+        };
+        let mut all = self.all.iter().filter(|own| own.stage == stage && !own.is_constant && !own.is_partial);
+        (1..4).contains(&width) && !is_constant(&event.values) && all.any(|own| own.turns.iter().any(is_it))
     }
 
     /// Whether it equals one of several such quantities. A vector of length 1 is one, and the same normalised is another.
@@ -259,33 +269,6 @@ impl Quantities {
         found.dedup();
         found
     }
-}
-
-/// The values of the variables that an event is computed from in its expression, but for those that are the same everywhere. `what`: what
-/// a site does.
-pub(super) fn leaves<'t>(trace: &'t Trace, event: usize, what: &dyn Fn(usize) -> &'t What) -> Vec<&'t ScalarColumns> {
-    let all = leaf_events(trace, event, &|event| what(trace.events[event].site));
-    all.into_iter().map(|event| &event.values).collect()
-}
-
-/// `what`: what an event does.
-fn leaf_events<'t>(trace: &'t Trace, event: usize, what: &dyn Fn(usize) -> &'t What) -> Vec<&'t Event> {
-    let mut found: Vec<&Event> = Vec::new();
-    let mut open = vec![event];
-    while let Some(at) = open.pop() {
-        let own = &trace.events[at];
-        let is_leaf = match what(at) {
-            What::Read(_) => true,
-            What::Assign { .. } => at != event,
-            _ => false,
-        };
-        if !is_leaf {
-            open.extend(&own.from);
-        } else if !is_constant(&own.values) && !found.iter().any(|known| is_equal(&known.values, &own.values)) {
-            found.push(own);
-        }
-    }
-    found
 }
 
 /// What a flat output hands over of a value at three corners for each place, to so many samples.

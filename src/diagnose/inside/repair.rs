@@ -6,12 +6,14 @@
 //! next one is looked for in the text with it.
 
 mod chained;
+mod ingredients;
 mod meaning;
 mod repaired;
 
 pub(in crate::diagnose) use repaired::Repaired;
 
-use super::chain::Link;
+use chained::Mending;
+
 use super::search::{Search, is_in_place, is_right};
 use super::{Finding, Place, Seen, Stage, TracedProgram};
 use crate::compare::{COLOUR_TOLERANCE, POSITION_TOLERANCE};
@@ -117,7 +119,7 @@ impl Search<'_, '_> {
             return Vec::new();
         }
         let first = self.first_attempt();
-        let (steps, left) = self.steps(&first, findings, goes_on).unwrap_or_default();
+        let Mending { steps, written, left } = self.steps(&first, findings, goes_on).unwrap_or_default();
         let mut attempt = first;
         let mut found = Vec::new();
         for step in steps {
@@ -130,6 +132,7 @@ impl Search<'_, '_> {
             let Some(next) = self.after(&attempt, &step) else { return Vec::new() };
             attempt = next;
         }
+        found.extend(written);
         found.extend(left.iter().map(|link| self.computed_otherwise(link)));
         found
     }
@@ -155,39 +158,35 @@ impl Search<'_, '_> {
         RepairAttempt { program: self.theirs.clone(), texts: texts.collect(), seen: self.own.clone(), part: None }
     }
 
-    fn ingredients(&self) -> Ingredients {
-        let solution: Vec<&str> = self.assignment.files.iter().map(|file| file.solution.text.as_str()).collect();
-        Ingredients::of(&solution)
-    }
-
-    /// One or two changes that make all right together.
+    /// One or more changes that make all right together, perhaps with what is left besides.
     fn steps(
         &self,
         attempt: &RepairAttempt,
         findings: &[Finding],
         goes_on: &mut dyn FnMut() -> bool,
-    ) -> Option<(Vec<RepairStep>, &[Link])> {
+    ) -> Option<Mending<'_>> {
         let (lines, right) = (&self.lines(findings), &self.ingredients());
         let scope = RepairScope { lines, right, most: MOST_TRIED, aim: RepairAim::More };
+        let mended = |steps: Vec<RepairStep>| Some(Mending { steps, ..Mending::default() });
         let better = match self.step(attempt, scope) {
-            RepairOutcome::Right(step) => return Some((vec![step], &[])),
+            RepairOutcome::Right(step) => return mended(vec![step]),
             RepairOutcome::Better(better) => better,
         };
         if !goes_on() {
             return None;
         }
-        let (steps, left) = self.chained(attempt, right);
-        if !steps.is_empty() && left.is_empty() {
-            return Some((steps, left));
+        let chained = self.chained(attempt, right);
+        if chained.as_ref().is_some_and(|chained| !chained.steps.is_empty() && chained.left.is_empty()) {
+            return chained;
         }
         let two = better.into_iter().take(MOST_BEGINNINGS).find_map(|(first, seen)| {
             let next = RepairAttempt { seen, ..self.after(attempt, &first)? };
             match self.step(&next, RepairScope { most: MOST_TRIED_AFTER, ..scope }) {
-                RepairOutcome::Right(second) => Some((vec![first, second], &[][..])),
+                RepairOutcome::Right(second) => mended(vec![first, second]),
                 RepairOutcome::Better(_) => None,
             }
         });
-        two.or_else(|| self.are_known(left).then_some((steps, left)))
+        two.or_else(|| chained.filter(|chained| self.are_known(chained.left)))
     }
 
     /// Tries so many changes once.

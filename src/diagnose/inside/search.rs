@@ -1,7 +1,7 @@
 //! Which value has to be another one for all that is seen to be right.
 
 use super::candidates::Mend;
-use super::chain::Link;
+use super::chain::Chain;
 use super::quantities::Quantity;
 use super::walk::{Suspect, made_of, roots, suspects};
 use super::*;
@@ -31,7 +31,7 @@ pub(super) struct Search<'s, 'a> {
     /// What is changed already.
     pub base: StageChanges,
     /// The places of several mistakes, once they were looked for.
-    pub chain: OnceCell<Vec<Link>>,
+    pub chain: OnceCell<Chain>,
 }
 
 impl Search<'_, '_> {
@@ -45,7 +45,12 @@ impl Search<'_, '_> {
         }
         // What goes out can always be mended: that is no place. Several places further back are.
         let apart: Vec<Finding> = self.several().iter().filter_map(|mend| self.finding(mend)).collect();
-        if apart.is_empty() { self.chain().iter().map(|link| link.finding.clone()).collect() } else { apart }
+        if !apart.is_empty() {
+            return apart;
+        }
+        let chain = self.chain();
+        let links = if chain.is_whole { &chain.links[..] } else { &[] };
+        links.iter().map(|link| link.finding.clone()).collect()
     }
 
     pub fn trace(&self, stage: Stage) -> Option<&Trace> {
@@ -72,7 +77,7 @@ impl Search<'_, '_> {
     pub fn suspects(&self, stage: Stage) -> Vec<Suspect> {
         let Some(trace) = self.trace(stage) else { return Vec::new() };
         let program = self.theirs.stage(stage);
-        suspects(stage, program, trace, self.quantities, &|_| false)
+        suspects(program, trace, &|event| self.quantities.equal_to(stage, event).is_some())
     }
 
     /// The first place that mends everything by itself, other than one site.

@@ -1,6 +1,6 @@
 //! From the outputs back to what they are made of, as far as it is not right yet.
 
-use super::{Quantities, Stage, Trace, What};
+use super::{Trace, What};
 use crate::diagnose::columns::{ScalarColumns, is_equal};
 use reference::interpreter::Program;
 use reference::interpreter::trace::Event;
@@ -18,15 +18,8 @@ pub(super) struct Suspect {
     pub gives_right: bool,
 }
 
-/// The suspects of a stage in the order in which they are computed. `is_misnamed`: whether a value has the name of another one of the
-/// right answer, so that it is not taken for right.
-pub(super) fn suspects(
-    stage: Stage,
-    program: &Program,
-    trace: &Trace,
-    quantities: &Quantities,
-    is_misnamed: &dyn Fn(&Event) -> bool,
-) -> Vec<Suspect> {
+/// The suspects of a stage in the order in which they are computed. `is_known`: whether a value is taken for right.
+pub(super) fn suspects(program: &Program, trace: &Trace, is_known: &dyn Fn(&Event) -> bool) -> Vec<Suspect> {
     let roots = &roots(trace);
     let mut seen: BTreeMap<usize, bool> = BTreeMap::new();
     let mut givers: Vec<usize> = Vec::new();
@@ -38,10 +31,7 @@ pub(super) fn suspects(
         let own = &trace.events[event];
         // What goes out is what is asked about, and a step that changes nothing anywhere may be the one that should.
         let goes_out = roots.iter().any(|root| trace.events[*root].values == own.values);
-        let is_right = !goes_out
-            && quantities.equal_to(stage, own).is_some()
-            && !changes_nothing(program, trace, event)
-            && !is_misnamed(own);
+        let is_right = !goes_out && is_known(own) && !changes_nothing(program, trace, event);
         seen.insert(event, is_right);
         match is_right {
             true => givers.extend(copies(trace, event)),

@@ -12,6 +12,7 @@ use crate::diagnose::trials::{FUEL_OF_TRACE, StageChanges};
 use reference::equation::DISCARDED;
 use reference::interpreter::trace::{Event, Trace, What};
 use reference::interpreter::{DISCARD, Operator, Program, ProgramRepair, Stage};
+use reference::mistake::Mistake;
 use reference::traced::{Bench, Seen};
 
 impl Search<'_, '_> {
@@ -65,20 +66,28 @@ impl Search<'_, '_> {
         links.iter().all(|link| self.is_known_alone(link)) && !links.iter().enumerate().any(is_twice)
     }
 
+    /// A mistake for which there is no change of the text, at the place where it stands.
+    pub(super) fn known_at(&self, mistake: Mistake, finding: &Finding) -> Repaired {
+        let written =
+            self.texts(finding.stage).map_or_else(String::new, |(_, source)| source.line(finding.line).into());
+        Repaired {
+            mistake,
+            located: finding.located(),
+            texts: [written, String::new()],
+            numbers: None,
+            line: None,
+            touches: finding.touches.clone(),
+        }
+    }
+
     /// What is known of a place for which there is no change of the text.
     pub(super) fn computed_otherwise(&self, Link { mend, finding, .. }: &Link) -> Repaired {
         let own = finding.quantity.as_ref().or(finding.serves.as_ref());
         let is_judged = |name: &&String| self.assignment.lines_about(name).next().is_some();
         let definition = own.filter(is_judged).cloned().or_else(|| self.judged_operand(mend)).or(own.cloned());
-        let written = self.texts(mend.stage).map_or_else(String::new, |(_, source)| source.line(finding.line).into());
-        Repaired {
-            mistake: self.assignment.repaired(Operator::Otherwise, definition.as_deref(), false),
-            located: finding.located(),
-            texts: [written, String::new()],
-            numbers: finding.numbers(),
-            line: mend.values.first().and_then(|value| self.line_around(value)),
-            touches: finding.touches.clone(),
-        }
+        let mistake = self.assignment.repaired(Operator::Otherwise, definition.as_deref(), false);
+        let line = mend.values.first().and_then(|value| self.line_around(value));
+        Repaired { numbers: finding.numbers(), line, ..self.known_at(mistake, finding) }
     }
 
     /// The one variable that a value is computed from at once and that a line of the rubric is about.
