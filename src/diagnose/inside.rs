@@ -114,7 +114,7 @@ pub(super) fn account(evidence: &Evidence<'_>, goes_on: &mut dyn FnMut() -> bool
 /// The places that have to be mended, and the one slip of the text without which all is right, where there is one.
 pub(super) fn slip(evidence: &Evidence<'_>) -> (Vec<Finding>, Option<Located>) {
     let both = |search: &mut Search<'_, '_>| {
-        let findings = search.findings();
+        let findings = search.places();
         // What is thrown away or written over is a slip of its own.
         let is_value = findings.first().is_none_or(|first| !matches!(first.flaw, Flaw::ThrownAway | Flaw::Overwrites));
         let slip = if is_value { search.slip(&findings) } else { None };

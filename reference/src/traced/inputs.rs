@@ -5,6 +5,7 @@ use crate::equation::Reads;
 use crate::interpreter::{Interpolation, Prepared, Program, ProgramVariable, Scalar};
 use crate::pipeline::{Pipeline, Varying, columns};
 use crate::probes::Spot;
+use crate::scene::Vertex;
 use crate::{Assignment, Value};
 
 /// The four pixels of a quad, row by row from below.
@@ -113,10 +114,10 @@ pub(super) fn vertex_run<'p>(
                 let values: Vec<Value> = corners.map(|vertex| own.stream.value(&own.kind, vertex)).collect();
                 columns(input, values.iter())
             }
-            None if input.name == "gl_VertexID" => {
+            None if let Some(number) = number_of(&input.name) => {
                 let number = |at: &Place<'_>| match at.probe.spot.as_deref() {
-                    Some(spot) if !is_single => spot.corners.map(|vertex| f64::from(vertex.number)).to_vec(),
-                    _ => vec![f64::from(at.probe.vertex.number)],
+                    Some(spot) if !is_single => spot.corners.map(|vertex| f64::from(number(&vertex))).to_vec(),
+                    _ => vec![f64::from(number(&at.probe.vertex))],
                 };
                 vec![places.iter().flat_map(number).collect()]
             }
@@ -140,4 +141,13 @@ fn prepared<'p>(
         prepared.feed(name, columns).ok()?;
     }
     Some(prepared)
+}
+
+/// What a vertex stage knows of a vertex by this name beside its inputs.
+fn number_of(name: &str) -> Option<fn(&Vertex) -> u32> {
+    match name {
+        "gl_VertexID" => Some(|vertex| vertex.number),
+        "gl_InstanceID" => Some(|vertex| vertex.instance),
+        _ => None,
+    }
 }

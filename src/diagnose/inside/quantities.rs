@@ -132,13 +132,16 @@ impl Quantities {
         a.computed_in == b.computed_in && !is_made(a, b) && !is_made(b, a)
     }
 
-    /// The variables that the right answer reads in a stage, each with what it, and what a part of it, has where it is first read; none
-    /// that is the same everywhere.
-    pub fn reads(&self, stage: Stage) -> Vec<(&str, &ScalarColumns)> {
+    /// What the right answer is given in a stage, each with what it, and what a part of it, has where it is first read; none that is the
+    /// same everywhere.
+    pub fn given(&self, stage: Stage) -> Vec<(&str, &ScalarColumns)> {
         let events = self.traces[stage as usize].iter().flat_map(|trace| &trace.events);
         let mut found: Vec<(&str, &ScalarColumns)> = Vec::new();
         for (event, what) in events.zip(&self.doings[stage as usize]) {
             let What::Read(name) = what else { continue };
+            if !event.from.is_empty() {
+                continue;
+            }
             let is_it = |(known, values): &(&str, &ScalarColumns)| known == name && values.len() == event.values.len();
             if !found.iter().any(is_it) {
                 found.push((name, &event.values));

@@ -36,6 +36,18 @@ pub(super) struct Search<'s, 'a> {
 
 impl Search<'_, '_> {
     pub fn findings(&mut self) -> Vec<Finding> {
+        let found = self.places();
+        if !found.is_empty() {
+            return found;
+        }
+        let chain = self.chain();
+        let is_known = chain.is_whole && chain.links.iter().all(|link| link.finding.is_settled);
+        let links = if is_known { &chain.links[..] } else { &[] };
+        links.iter().map(|link| link.finding.clone()).collect()
+    }
+
+    /// The places that mend everything each by itself, or each beside the other.
+    pub fn places(&mut self) -> Vec<Finding> {
         if let Some(declared) = self.otherwise_interpolated() {
             return vec![declared];
         }
@@ -44,13 +56,7 @@ impl Search<'_, '_> {
             return self.finding(mend).into_iter().collect();
         }
         // What goes out can always be mended: that is no place. Several places further back are.
-        let apart: Vec<Finding> = self.several().iter().filter_map(|mend| self.finding(mend)).collect();
-        if !apart.is_empty() {
-            return apart;
-        }
-        let chain = self.chain();
-        let links = if chain.is_whole { &chain.links[..] } else { &[] };
-        links.iter().map(|link| link.finding.clone()).collect()
+        self.several().iter().filter_map(|mend| self.finding(mend)).collect()
     }
 
     pub fn trace(&self, stage: Stage) -> Option<&Trace> {

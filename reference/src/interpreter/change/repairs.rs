@@ -188,7 +188,9 @@ impl Repairable {
                 ProgramRepair { is_slip: true, .. } => (2, size, rank),
                 _ => (3, if is_call { (0, true) } else { size }, rank),
             };
-            (size.0 <= LARGEST).then_some(((key, !repair.is_slip, repair.mistake), repair))
+            // What is taken from the right answer as a whole says less than a slip of what is written.
+            let is_taken = !repair.is_slip && repair.mistake == Operator::OtherValue;
+            (size.0 <= LARGEST).then_some(((key, is_taken, repair.mistake), repair))
         });
         let mut ranked: Vec<_> = ranked.collect();
         ranked.sort_by_key(|(key, _)| *key);

@@ -31,13 +31,13 @@ impl Search<'_, '_> {
         renamed + &text[end..]
     }
 
-    /// The names of what the right answer reads, with the student's names of the same values.
+    /// The names of what the right answer is given, with the student's names of the same values.
     fn names_alike(&self, stage: Stage) -> Vec<(String, String)> {
         let Some(trace) = self.trace(stage) else { return Vec::new() };
         let sites = self.theirs.stage(stage).sites();
-        let alike = self.quantities.reads(stage).into_iter().filter_map(|(name, values)| {
+        let alike = self.quantities.given(stage).into_iter().filter_map(|(name, values)| {
             let mut reads = trace.events.iter().filter_map(|event| match &sites[event.site].what {
-                What::Read(own) if is_equal(&event.values, values) => Some(own.clone()),
+                What::Read(own) if event.from.is_empty() && is_equal(&event.values, values) => Some(own.clone()),
                 _ => None,
             });
             Some((name.to_owned(), reads.next()?))
