@@ -114,7 +114,7 @@ fn interpret_frames_and_probes(bencher: Bencher<'_, '_>) {
     let rendering = renderer.render(&shader(&read(&text), &interface()), &scene).expect("a rendering");
     let batches: Vec<_> = scene.frames.iter().flatten().chain(&scene.probes).collect();
     let samples: Vec<_> = rendering.frame_samples.iter().chain(&rendering.probe_samples).map(Vec::as_slice).collect();
-    bencher.bench_local(|| cross_check::check(&text, "vc", &batches, &samples));
+    bencher.bench_local(|| cross_check::check(&text, "vc", &assignment().interface, &batches, &samples));
 }
 
 /// One of the 25 frames of a solution that lights each pixel, all of them covered.

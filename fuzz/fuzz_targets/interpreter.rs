@@ -60,7 +60,7 @@ fn agrees(text: &str) {
     }
     let batches: Vec<&DrawCall> = scene.frames.iter().flatten().collect();
     let samples: Vec<_> = rendering.frame_samples.iter().map(Vec::as_slice).collect();
-    let checked = cross_check::check(&source.text, &INTERFACE.output.name, &batches, &samples);
+    let checked = cross_check::check(&source.text, &INTERFACE.output.name, &assignment().interface, &batches, &samples);
     assert_ne!(checked.opinion, Opinion::Differs, "{checked:?}\n{text}");
 }
 
