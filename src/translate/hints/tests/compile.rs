@@ -6,7 +6,7 @@ use crate::diagnostic::Severity;
 const TOLD: &[HintCase] = &[
     ("float cosine = ", "§switch (shine) { case 1: break; }\n  float cosine = ", "`int`", "`int`"),
     ("float cosine = ", "switch (1) { case 1: break; §case 1: break; }\n  float cosine = ", "same value", "同じ値"),
-    ("float cosine = ", "int n = 2; float list[§n];\n  float cosine = ", "`const int`", "`const int`"),
+    ("float cosine = ", "int two = 2; float list[§two];\n  float cosine = ", "`const int`", "`const int`"),
     ("out vec4 colour;", "uniform Block { vec4 one; } block§\nout vec4 colour;", "A `;` is missing|`block`", "`;`"),
     ("float cosine = ", "§discard;\n  float cosine = ", "another kind of shader", "この種類のシェーダ"),
 ];
