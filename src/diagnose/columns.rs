@@ -51,7 +51,7 @@ pub(super) fn fits(value: usize, quantity: usize) -> bool {
 }
 
 /// Whether a value equals a quantity wherever both are there.
-pub(super) fn is_same(event: &Event, quantity: &ScalarColumns) -> bool {
+pub(super) fn is_same(event: &Event, quantity: &[Vec<f64>]) -> bool {
     if !fits(event.values.len(), quantity.len()) {
         return false;
     }

@@ -51,7 +51,8 @@ impl Search<'_, '_> {
         let mend = |quantity, values| Mend { stage, suspect: suspect.clone(), quantity, values };
         let mut found = Vec::new();
         for (number, quantity) in self.quantities.all.iter().enumerate() {
-            if quantity.stage != stage
+            if quantity.is_multiplied_out
+                || quantity.stage != stage
                 || quantity.is_bool != is_bool
                 || !fits(first.values.len(), quantity.turns[0].len())
             {

@@ -37,6 +37,8 @@ pub(super) struct Quantity {
     pub addends: Vec<(Option<String>, ScalarColumns)>,
     /// Whether it is some addends of a sum, which the right answer does not add by themselves.
     pub is_partial: bool,
+    /// Whether the right answer multiplies a sum where this has the factor in each addend.
+    pub is_multiplied_out: bool,
     /// Whether it is the same at all places: such values are equal by chance.
     pub is_constant: bool,
 }
@@ -183,19 +185,19 @@ impl Quantities {
 
     /// A right quantity that a value equals where it is computed, and not by chance.
     pub fn equal_to(&self, stage: Stage, event: &Event) -> Option<&Quantity> {
-        self.all.iter().find(|own| own.is_equal_to(stage, event))
+        self.all.iter().find(|own| !own.is_multiplied_out && own.is_equal_to(stage, event))
     }
 
-    /// Whether a value is right: it equals a quantity, or a component of one, or several in a row.
+    /// Whether a value is right: it equals a quantity, also multiplied out, or a component of one, or several in a row.
     pub fn is_right(&self, stage: Stage, event: &Event) -> bool {
-        self.equal_to(stage, event).is_some() || self.is_component(stage, event)
+        self.equals_any(stage, event, |_| true) || self.is_component(stage, event)
     }
 
     /// Whether a value equals a component of a quantity, or several in a row, and not by chance.
     fn is_component(&self, stage: Stage, event: &Event) -> bool {
         let width = event.values.len();
         let is_it = |turn: &ScalarColumns| {
-            (width + 1..=4).contains(&turn.len()) && turn.windows(width).any(|part| is_same(event, &part.to_vec()))
+            (width + 1..=4).contains(&turn.len()) && turn.windows(width).any(|part| is_same(event, part))
         };
         let mut all = self.all.iter().filter(|own| own.stage == stage && !own.is_constant && !own.is_partial);
         (1..4).contains(&width) && !is_constant(&event.values) && all.any(|own| own.turns.iter().any(is_it))

@@ -1,12 +1,13 @@
 //! What belongs in a place whose operands are right.
 
 use super::{is_right_there, named_suspects};
-use crate::diagnose::columns::{ScalarColumns, is_constant, is_equal, is_number, is_same};
+use crate::diagnose::columns::{ScalarColumns, fits, is_constant, is_equal, is_number, is_same, shaped};
 use crate::diagnose::inside::candidates::Mend;
-use crate::diagnose::inside::quantities::leaves;
+use crate::diagnose::inside::quantities::{Quantity, leaves};
 use crate::diagnose::inside::search::{Search, is_right};
 use crate::diagnose::inside::walk::Suspect;
 use crate::diagnose::inside::{Stage, What, variable};
+use reference::interpreter::Binary;
 use reference::interpreter::trace::{Event, Trace};
 
 /// So many values are tried in one place, those that fit best.
@@ -36,7 +37,7 @@ impl Search<'_, '_> {
         is_known: bool,
         tries: &mut usize,
     ) -> Option<(Mend, usize)> {
-        let all = self.candidates(stage, suspect).into_iter().chain(self.components(stage, suspect));
+        let all = self.candidates(stage, suspect).into_iter().chain(self.parts(stage, suspect));
         let all = all.map(|mend| (self.kinship(&mend), mend));
         let is_akin =
             |kinship: &Kinship| kinship.is_called || if is_known { kinship.is_next } else { kinship.on_its_way > 0 };
@@ -59,17 +60,27 @@ impl Search<'_, '_> {
         best.map(|((_, _, gained, _), mend)| (mend, gained))
     }
 
-    /// What may stand in a place and is a component of a vector of the right answer, or several in a row.
-    fn components(&self, stage: Stage, suspect: &Suspect) -> Vec<Mend> {
+    /// What may stand in a place that the right answer has as a part only: components of a vector in a row, and what is multiplied out.
+    fn parts(&self, stage: Stage, suspect: &Suspect) -> Vec<Mend> {
         let Some(trace) = self.trace(stage) else { return Vec::new() };
-        let events: Vec<&Event> = suspect.events.iter().map(|event| &trace.events[*event]).collect();
-        let [event] = events[..] else { return Vec::new() };
+        let [event] = suspect.events[..] else { return Vec::new() };
+        let event = &trace.events[event];
         let width = event.values.len();
-        let vectors = self.quantities.all.iter().enumerate().filter(|(_, own)| own.stage == stage && !own.is_partial);
-        let vectors = vectors.filter(|(_, own)| own.turns.len() == 1 && (width + 1..=4).contains(&own.turns[0].len()));
-        let parts = vectors.flat_map(|(number, own)| own.turns[0].windows(width).map(move |part| (number, part)));
+        let is_product = matches!(self.site(stage, suspect).what, What::Binary(Binary::Multiply | Binary::Divide));
+        let of = |own: &Quantity| -> Vec<ScalarColumns> {
+            match &own.turns[..] {
+                [turn] if own.is_multiplied_out && fits(width, turn.len()) && (is_product || !own.is_partial) => {
+                    vec![shaped(event, turn)]
+                }
+                [turn] if !own.is_partial && (width + 1..=4).contains(&turn.len()) => {
+                    turn.windows(width).map(<[_]>::to_vec).collect()
+                }
+                _ => Vec::new(),
+            }
+        };
+        let all = self.quantities.all.iter().enumerate().filter(|(_, own)| own.stage == stage);
         let mut found: Vec<Mend> = Vec::new();
-        for (number, part) in parts.map(|(number, part)| (number, part.to_vec())) {
+        for (number, part) in all.flat_map(|(number, own)| of(own).into_iter().map(move |part| (number, part))) {
             let is_there = |mend: &Mend| is_equal(&mend.values[0], &part);
             if part[0].len() == event.lanes.len() && !is_same(event, &part) && !found.iter().any(is_there) {
                 found.push(Mend { stage, suspect: suspect.clone(), quantity: Some(number), values: vec![part] });

@@ -17,7 +17,8 @@ pub(super) fn name(program: &Program, event: &Event) -> Option<String> {
 /// All of a stage: what it computes, sums of some addends of the largest sum, and what is computed several times under names in a row.
 pub(super) fn of_stage(stage: Stage, program: &Program, trace: &Trace) -> Vec<Quantity> {
     let mut all = computed(stage, program, trace);
-    all.extend(partial_sums(program, trace, &all));
+    all.extend(partial_sums(&all));
+    all.extend(multiplied_sums(program, trace, &all));
     all.extend(siblings(&all));
     all
 }
@@ -48,6 +49,7 @@ fn computed(stage: Stage, program: &Program, trace: &Trace) -> Vec<Quantity> {
             events,
             is_bool,
             is_partial: false,
+            is_multiplied_out: false,
             is_leaf: matches!(site.what, What::Literal | What::Read(_)),
             is_interpolated: matches!(&site.what, What::Read(name) if stage == Stage::Fragment && is_input(name)),
         };
@@ -92,10 +94,25 @@ fn siblings(all: &[Quantity]) -> Vec<Quantity> {
 /// Most addends of a sum some of which may be added by themselves.
 const MOST_ADDENDS: usize = 6;
 
-/// Some of the addends of the largest sum, each with the factors that they have in common: a factor may stand before two terms of three,
-/// or before each of them.
-fn partial_sums(program: &Program, trace: &Trace, all: &[Quantity]) -> Vec<Quantity> {
-    let each = |one: &Quantity| one.events.last().map_or_else(Vec::new, |event| multiplied_out(program, trace, *event));
+/// Sums of some of the addends of the largest sum: a factor may stand before two terms of three.
+fn partial_sums(all: &[Quantity]) -> Vec<Quantity> {
+    some_of_the_largest(all, &|one| one.addends.clone())
+}
+
+/// The same where a factor stands before each of the addends, and these by themselves.
+fn multiplied_sums(program: &Program, trace: &Trace, all: &[Quantity]) -> Vec<Quantity> {
+    let each = |one: &Quantity| {
+        // What only passes a sum on has no addends.
+        let site = one.events.first().map(|event| trace.events[*event].site);
+        let event = one.events.iter().rfind(|event| Some(trace.events[**event].site) == site);
+        event.map_or_else(Vec::new, |event| multiplied_out(program, trace, *event))
+    };
+    let found = some_of_the_largest(all, &each).into_iter();
+    found.map(|own| Quantity { is_multiplied_out: true, ..own }).collect()
+}
+
+/// Some of the addends of the largest sum, and their sums, as far as they are new. `each`: what is added up to a quantity.
+fn some_of_the_largest(all: &[Quantity], each: &dyn Fn(&Quantity) -> Vec<Addend>) -> Vec<Quantity> {
     let fits = |one: &Quantity, addends: &[Addend]| {
         let is_one = |(_, addend): &Addend| [1, one.turns[0].len()].contains(&addend.len());
         (3..=MOST_ADDENDS).contains(&addends.len()) && addends.iter().all(is_one)
@@ -127,6 +144,7 @@ fn partial_sums(program: &Program, trace: &Trace, all: &[Quantity]) -> Vec<Quant
             turns: vec![total],
             is_bool: false,
             is_partial: addends.len() > 1,
+            is_multiplied_out: false,
             is_leaf: false,
             is_interpolated: false,
             addends,
@@ -187,13 +205,8 @@ fn product(a: &ScalarColumns, b: &ScalarColumns) -> ScalarColumns {
 /// What is added up to an event, with the names of variables.
 fn addends(program: &Program, trace: &Trace, event: usize) -> Vec<Addend> {
     let own = &trace.events[event];
-    let site = &program.sites()[own.site];
-    let is_sum = matches!(site.what, What::Binary(Binary::Add));
-    let operands = || own.from.iter().copied();
-    match &site.what {
-        What::Binary(Binary::Add) => {
-            operands().flat_map(|operand| addend(program, trace, operand)).filter(|_| is_sum).collect()
-        }
+    match &program.sites()[own.site].what {
+        What::Binary(Binary::Add) => own.from.iter().flat_map(|operand| addend(program, trace, *operand)).collect(),
         What::Assign { .. } => match own.from.as_slice() {
             [only] => addends(program, trace, *only),
             _ => Vec::new(),
