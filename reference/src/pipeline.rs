@@ -286,13 +286,13 @@ impl Interface {
     ) -> Option<Outputs> {
         let mut given: Vec<(&str, Vec<Vec<f64>>)> = Vec::new();
         for input in program.inputs() {
-            let numbers = |of: fn(&Vertex) -> u32| vertices.iter().map(|vertex| f64::from(of(vertex))).collect();
             let own = self.inputs.iter().find(|own| own.name == input.name);
             let columns = match own {
                 Some(own) => own.stream.columns(&own.kind, input, vertices),
-                None if input.name == "gl_VertexID" => vec![numbers(|vertex| vertex.number)],
-                None if input.name == "gl_InstanceID" => vec![numbers(|vertex| vertex.instance)],
-                None => continue,
+                None => match Vertex::number_by(&input.name) {
+                    Some(number) => vec![vertices.iter().map(|vertex| f64::from(number(vertex))).collect()],
+                    None => continue,
+                },
             };
             given.push((&input.name, columns));
         }

@@ -39,6 +39,11 @@ impl Assignment {
         self.rubric.iter().filter(move |line| line.variables.iter().any(|own| own == variable))
     }
 
+    /// Whether a line of the rubric is about a variable of the solution.
+    pub fn is_judged(&self, variable: &str) -> bool {
+        self.lines_about(variable).next().is_some()
+    }
+
     /// Whether what a form replaces shows in the term that the line judges: before it, or in what becomes of it. What is no
     /// term of the colour is the mistake's own affair.
     pub(crate) fn reaches(&self, form: &MistakeForm, line: &RubricLine) -> bool {

@@ -33,6 +33,15 @@ impl Vertex {
         }
     }
 
+    /// What a vertex stage knows of a vertex by this name beside its inputs.
+    pub(crate) fn number_by(name: &str) -> Option<fn(&Self) -> u32> {
+        match name {
+            "gl_VertexID" => Some(|vertex| vertex.number),
+            "gl_InstanceID" => Some(|vertex| vertex.instance),
+            _ => None,
+        }
+    }
+
     /// The same vertex with the numbers of another.
     pub fn numbered_as(self, other: &Self) -> Self {
         Self { number: other.number, instance: other.instance, ..self }

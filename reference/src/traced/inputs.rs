@@ -114,7 +114,7 @@ pub(super) fn vertex_run<'p>(
                 let values: Vec<Value> = corners.map(|vertex| own.stream.value(&own.kind, vertex)).collect();
                 columns(input, values.iter())
             }
-            None if let Some(number) = number_of(&input.name) => {
+            None if let Some(number) = Vertex::number_by(&input.name) => {
                 let number = |at: &Place<'_>| match at.probe.spot.as_deref() {
                     Some(spot) if !is_single => spot.corners.map(|vertex| f64::from(number(&vertex))).to_vec(),
                     _ => vec![f64::from(number(&at.probe.vertex))],
@@ -141,13 +141,4 @@ fn prepared<'p>(
         prepared.feed(name, columns).ok()?;
     }
     Some(prepared)
-}
-
-/// What a vertex stage knows of a vertex by this name beside its inputs.
-fn number_of(name: &str) -> Option<fn(&Vertex) -> u32> {
-    match name {
-        "gl_VertexID" => Some(|vertex| vertex.number),
-        "gl_InstanceID" => Some(|vertex| vertex.instance),
-        _ => None,
-    }
 }

@@ -65,7 +65,7 @@ const QUOTED: DisallowedWording = DisallowedWording {
 };
 
 /// Declarations and names that are not allowed, by the beginning of the compiler's message.
-const DECLARATIONS: [DisallowedWording; 23] = [
+const DECLARATIONS: [DisallowedWording; 22] = [
     DisallowedWording {
         says: "Reserved word",
         message: [
@@ -180,12 +180,7 @@ const DECLARATIONS: [DisallowedWording; 23] = [
         hint: NO_HINT,
     },
     DisallowedWording {
-        says: "Too few args in macro",
-        message: ["This macro is given fewer arguments than it has.", "マクロに渡す引数が足りません。"],
-        hint: NO_HINT,
-    },
-    DisallowedWording {
-        says: "Too few args in Macro",
+        says: "Too few args in",
         message: ["This macro is given fewer arguments than it has.", "マクロに渡す引数が足りません。"],
         hint: NO_HINT,
     },

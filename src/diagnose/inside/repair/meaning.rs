@@ -83,7 +83,7 @@ impl Search<'_, '_> {
     /// What is known of a place for which there is no change of the text.
     pub(super) fn computed_otherwise(&self, Link { mend, finding, .. }: &Link) -> Repaired {
         let own = finding.quantity.as_ref().or(finding.serves.as_ref());
-        let is_judged = |name: &&String| self.assignment.lines_about(name).next().is_some();
+        let is_judged = |name: &&String| self.assignment.is_judged(name);
         let definition = own.filter(is_judged).cloned().or_else(|| self.judged_operand(mend)).or(own.cloned());
         let mistake = self.assignment.repaired(Operator::Otherwise, definition.as_deref(), false);
         let line = mend.values.first().and_then(|value| self.line_around(value));
@@ -96,8 +96,7 @@ impl Search<'_, '_> {
         let operands = self.quantities.made_from(&all[mend.quantity?]);
         let is_operand = |own: &&Quantity| own.turns.iter().any(|turn| operands.iter().any(|one| is_equal(one, turn)));
         let names = all.iter().filter(is_operand).flat_map(|own| &own.names);
-        let mut judged: Vec<&String> =
-            names.filter(|name| self.assignment.lines_about(name).next().is_some()).collect();
+        let mut judged: Vec<&String> = names.filter(|name| self.assignment.is_judged(name)).collect();
         judged.sort_unstable();
         judged.dedup();
         if let [name] = judged[..] { Some(name.clone()) } else { None }
