@@ -14,7 +14,7 @@ pub use crate::feed::{Attribute, Bounds, Feed, Role, Stream};
 use crate::free::Free;
 use crate::host::HostArray;
 use crate::interpreter::{Stage, Texture};
-pub use crate::manifest::{RubricLine, Task};
+pub use crate::manifest::{LectureName, RubricLine, Task};
 use crate::mistake::{Mistake, MistakeForm};
 use crate::pipeline::Pipeline;
 use crate::probes::{Probing, Region};
@@ -25,6 +25,7 @@ use crate::{Folder, Text, Value, manifest};
 pub use error::AssignmentError;
 pub(crate) use error::error;
 pub use interface::{Input, Interface, Output, Uniform};
+use std::collections::BTreeMap;
 use std::sync::{Arc, OnceLock};
 
 /// A homework as data.
@@ -62,6 +63,8 @@ pub struct Assignment {
     pub(crate) revealed: Vec<AcceptedAnswer>,
     /// What the handed-out file defines.
     pub constants: Vec<Constant>,
+    /// What the lecture says of the solution's definitions and variables, by their names.
+    pub names: BTreeMap<String, LectureName>,
     /// What is drawn.
     pub scene: Scene,
     /// What a right answer computes.

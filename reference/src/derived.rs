@@ -157,7 +157,7 @@ impl Assignment {
     /// What is said of a mistake, and what it costs, where it is known by what makes the text right: the operator that a student
     /// slipped by, and the definition that it is in, where it is one, or the variable that a line is about. `is_bound_by_zero`: a bound of 0 is concerned.
     pub fn repaired(&self, operator: Operator, definition: Option<&str>, is_bound_by_zero: bool) -> Mistake {
-        let is_known = |name: &&str| self.equation.index(name).is_some() || self.is_judged(name);
+        let is_known = |name: &&str| self.equation.index(name).is_some() || self.is_told_apart(name);
         wording::of_repair(self, operator, definition.filter(is_known), is_bound_by_zero)
     }
 

@@ -1,10 +1,10 @@
 //! What a right answer computes: the definitions of the solution, in their order, with any of them replaced.
 
+use crate::Value;
 use crate::interpreter::{Formula, Registers, Sheet, Stage, Type};
 use crate::mistake::MistakeForm;
 use crate::probes::Region;
 use crate::value;
-use crate::{Text, Value};
 use glam::{DVec3, DVec4};
 use std::cell::RefCell;
 use std::sync::Arc;
@@ -46,12 +46,6 @@ pub struct Definition {
     pub kind: Type,
     /// How a right answer computes it.
     pub formula: Formula,
-    /// The slide of the lecture that defines it.
-    pub slide: Option<u32>,
-    /// What the lecture calls it.
-    pub symbol: Option<String>,
-    /// What it is, as a part of a sentence.
-    pub means: Option<Text>,
 }
 
 /// Constants, uniforms, vertex attributes, and what is computed from them, each in a cell of the solution's sheet.

@@ -86,9 +86,9 @@ pub struct Manifest {
     pub constant: Vec<Constant>,
     /// Geometry, camera, animation: one table, or several, of which the first is the course's own.
     pub scene: Scenes,
-    /// What the lecture says of the solution's definitions, by their names.
+    /// What the lecture says of the solution's definitions, or of the variables of one that is no list of definitions, by their names.
     #[serde(default)]
-    pub definition: BTreeMap<String, Definition>,
+    pub definition: BTreeMap<String, LectureName>,
     /// How probes are chosen.
     #[serde(default)]
     pub probes: Probes,
@@ -212,16 +212,26 @@ pub struct Constant {
     pub line: String,
 }
 
-/// What the lecture says of a definition.
-#[derive(Debug, Deserialize, JsonSchema)]
+/// What the lecture says of a definition, or of a variable of a solution that is no list of definitions.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Definition {
-    /// The slide of the lecture that defines it.
-    pub slide: Option<u32>,
+pub struct LectureName {
     /// What the lecture calls it.
     pub symbol: Option<String>,
     /// What it is, as a part of a sentence: `the cosine between N and L`.
     pub means: Option<Text>,
+}
+
+impl LectureName {
+    /// What stands for it in a sentence.
+    pub fn said(&self) -> Option<Text> {
+        self.means.clone().or_else(|| self.symbol.as_deref().map(Text::verbatim))
+    }
+
+    /// What it is called by itself.
+    pub fn in_few_words(&self) -> Option<Text> {
+        self.symbol.as_deref().map(Text::verbatim).or_else(|| self.means.clone())
+    }
 }
 
 /// A line of the rubric.

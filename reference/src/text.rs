@@ -20,7 +20,8 @@ impl Text {
         Self { ja: en.clone(), en }
     }
 
-    /// Both wordings with their `{placeholders}` filled in. A part in ⟨ ⟩ is left out if one of its placeholders is not given.
+    /// Both wordings with their `{placeholders}` filled in. A part in ⟨ ⟩ is left out if one of its placeholders is not given; what
+    /// follows a `|` in it stands there instead.
     pub fn fill(&self, values: &[(&str, &str)]) -> Self {
         Self { en: fill(&self.en, values), ja: fill(&self.ja, values) }
     }
@@ -37,11 +38,10 @@ fn fill(text: &str, values: &[(&str, &str)]) -> String {
     while let Some((before, after)) = rest.split_once('⟨') {
         let (optional, after) = after.split_once('⟩').unwrap_or((after, ""));
         out.push_str(&substitute(before, values));
-        let complete = substitute(optional, values);
+        let (optional, instead) = optional.split_once('|').unwrap_or((optional, ""));
         // What a value brings in stays as it is; a placeholder of ours is one in the text.
-        if placeholders(optional).all(|name| values.iter().any(|(n, _)| *n == name)) {
-            out.push_str(&complete);
-        }
+        let is_complete = placeholders(optional).all(|name| values.iter().any(|(n, _)| *n == name));
+        out.push_str(&substitute(if is_complete { optional } else { instead }, values));
         rest = after;
     }
     out.push_str(&substitute(rest, values));
@@ -93,6 +93,9 @@ mod tests {
 
     #[test]
     fn a_value_is_taken_literally() {
+        let look = text("⟨`{name}`|The result⟩ is wrong.");
+        assert_eq!(look.fill(&[("name", "h")]).en, "`h` is wrong.");
+        assert_eq!(look.fill(&[]).en, "The result is wrong.");
         let look = text("{name}⟨ and {line}⟩");
         let filled = look.fill(&[("name", "a{line}⟨b"), ("line", "{name}")]);
         assert_eq!(filled.en, "a{line}⟨b and {name}");

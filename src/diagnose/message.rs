@@ -188,7 +188,7 @@ impl Facts {
         let own = points.as_ref().map(TracedProbes::names).unwrap_or_default();
         let own = own.into_iter().chain(std::iter::repeat(None));
         for (definition, own) in evidence.assignment.equation.definitions().iter().zip(own) {
-            let symbol = definition.symbol.clone();
+            let symbol = evidence.assignment.names.get(&definition.name).and_then(|name| name.symbol.clone());
             names.extend(own.map(|own| format!("`{own}`")).or(symbol).map(|name| (definition.name.clone(), name)));
         }
         let is_finite_nowhere = addends::is_finite_nowhere(evidence);

@@ -10,6 +10,7 @@ mod host;
 mod interface;
 mod meshes;
 mod mistakes;
+mod names;
 mod passes;
 mod probing;
 mod rubric;
@@ -92,7 +93,8 @@ pub(super) fn assignment(
     let advice = advice.map(|entry| advice::advice(entry, &interface, &constants, &solution));
     let advice = advice.collect::<CheckResult<Vec<_>>>()?;
     let textures: Arc<[Texture]> = textures.into();
-    let equation = solution.finish(&m, &interface, &pipeline, &constants, Arc::clone(&textures))?;
+    let names = names::names(std::mem::take(&mut m.definition), &solution, &files)?;
+    let equation = solution.finish(&interface, &pipeline, &constants, Arc::clone(&textures))?;
     let mut assignment = Assignment {
         scene,
         files,
@@ -111,6 +113,7 @@ pub(super) fn assignment(
         gradual,
         revealed,
         constants,
+        names,
         equation,
         rubric: m.rubric,
         terms,

@@ -183,7 +183,7 @@ mod tests {
     use crate::text::both;
 
     const TEXT: &str = "id = \"x\"\n[scene]\nfar = 1\n[[mistake]]\nid = \"one\"\n[mistake.seen]\nen = \"\"\n\n\
-                        [[mistake]]\nkeeps = {}\nid = \"two\"\n[definition.h]\nslide = 1\n";
+                        [[mistake]]\nkeeps = {}\nid = \"two\"\n[definition.h]\nsymbol = \"H\"\n";
 
     #[test]
     fn an_entry_is_found_by_its_name() {

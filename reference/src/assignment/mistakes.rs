@@ -44,6 +44,11 @@ impl Assignment {
         self.lines_about(variable).next().is_some()
     }
 
+    /// Whether a variable of a solution that is no list of definitions is called anything, by itself or by a line that is about it.
+    pub(crate) fn is_told_apart(&self, variable: &str) -> bool {
+        self.names.contains_key(variable) || self.is_judged(variable)
+    }
+
     /// Whether what a form replaces shows in the term that the line judges: before it, or in what becomes of it. What is no
     /// term of the colour is the mistake's own affair.
     pub(crate) fn reaches(&self, form: &MistakeForm, line: &RubricLine) -> bool {

@@ -35,7 +35,7 @@ pub(super) fn mistakes(assignment: &Assignment) -> Vec<Mistake> {
             let Some(answer) = assignment.linked_with(file, slip.program.clone(), &slip.text) else { continue };
             // What a function returns, and what decides what is thrown away, has a name where it is known what it is for.
             let is_variable = |name: &str| !returns(name) && name != DISCARD;
-            let is_told = |name: &&String| is_variable(name) || assignment.is_judged(name);
+            let is_told = |name: &&String| is_variable(name) || assignment.is_told_apart(name);
             let name = slip.name.as_ref().filter(is_told).cloned().unwrap_or_else(|| RESULT.into());
             grouped.entry((slip.operator, name)).or_default().push((slip, answer));
         }

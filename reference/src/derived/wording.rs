@@ -3,7 +3,9 @@
 use super::{OperatorText, PREFIX, RESULT, operator_of};
 use crate::assignment::RubricLine;
 use crate::interpreter::{DefinitionSlip, Operator, ProgramSlip};
+use crate::manifest::LectureName;
 use crate::mistake::{Alternative, Condition, Mistake};
+use crate::text::both;
 use crate::{Assignment, Text};
 
 /// A mistake without its forms, which are those of the slips.
@@ -125,44 +127,51 @@ struct DefinitionName {
 
 impl DefinitionName {
     fn of(assignment: &Assignment, definition: usize) -> Self {
-        let own = &assignment.equation.definitions[definition];
-        let plain = match (&own.means, &own.symbol) {
-            (Some(means), _) => means.clone(),
-            (None, Some(symbol)) => Text { en: symbol.clone(), ja: symbol.clone() },
-            (None, None) => of_line(assignment, definition),
-        };
+        let name = &assignment.equation.definitions[definition].name;
+        let own = assignment.names.get(name);
+        let said = own.and_then(LectureName::said);
+        let plain = said.clone().unwrap_or_else(|| of_line(assignment, definition));
         let named = Text {
-            en: format!("{}⟨ ({{{}}})⟩", plain.en, own.name),
-            ja: format!("{}⟨ ({{{}}}) ⟩", plain.ja.trim_end(), own.name),
+            en: format!("{}⟨ ({{{name}}})⟩", plain.en),
+            ja: format!("{}⟨ ({{{name}}}) ⟩", plain.ja.trim_end()),
         };
-        let named = if own.means.is_none() && own.symbol.is_some() { plain.clone() } else { named };
-        let symbol = own.symbol.as_ref().map(|symbol| Text { en: symbol.clone(), ja: symbol.clone() });
+        // A symbol by itself is a name.
+        let is_symbol = own.is_some_and(|own| own.means.is_none()) && said.is_some();
         let line = || line_of(assignment, definition).map(|line| line.label.clone());
         Self {
+            named: if is_symbol { plain.clone() } else { named },
             plain,
-            named,
-            called: symbol.or_else(|| own.means.clone()).or_else(line),
-            is_known: own.means.is_some() || own.symbol.is_some() || is_judged(assignment, definition),
+            called: own.and_then(LectureName::in_few_words).or_else(line),
+            is_known: said.is_some() || is_judged(assignment, definition),
             is_everything: false,
         }
     }
 
-    /// A variable of a program of which nothing is told apart but by the lines of the rubric that are about it.
+    /// A variable of a program, which the lecture has a name for, or of which nothing is told apart but by the lines of the rubric
+    /// that are about it.
     fn of_program(assignment: &Assignment, name: &str) -> Self {
+        let own = assignment.names.get(name);
         let about: Vec<&RubricLine> = assignment.lines_about(name).collect();
         let only = match (&about[..], &assignment.rubric[..]) {
             ([line], _) => Some(*line),
             (_, [line]) => Some(line),
             _ => None,
         };
-        let plain = only.map_or_else(|| Text { en: "the result".into(), ja: "結果".into() }, part_called);
-        // The student's own name for what is computed there.
+        let known = own.and_then(LectureName::said).or_else(|| only.map(part_called));
+        let is_everything = known.is_none();
+        // The student's own name for what is computed there says most where there is no other.
+        let plain = known.unwrap_or_else(|| both("⟨`{name}`|the result⟩", "⟨`{name}` |結果⟩"));
         let named = Text {
             en: format!("{}⟨ (here `{{name}}`)⟩", plain.en),
             ja: format!("{}⟨（ここでは `{{name}}`）⟩", plain.ja),
         };
-        let called = only.map(|line| line.label.clone());
-        Self { named, plain, called, is_known: true, is_everything: only.is_none() }
+        Self {
+            named: if is_everything { plain.clone() } else { named },
+            plain,
+            called: own.and_then(LectureName::in_few_words).or_else(|| only.map(|line| line.label.clone())),
+            is_known: true,
+            is_everything,
+        }
     }
 
     fn seen(&self) -> Text {
@@ -260,6 +269,9 @@ fn filled(text: &Text, quantity: &Text, part: &Text) -> Text {
 
 /// With a capital letter at the beginning. A symbol, which is one word, stays as the lecture writes it: d is not D.
 fn capital(text: &str) -> String {
+    if let Some((name, instead)) = text.strip_prefix('⟨').and_then(|text| text.split_once('|')) {
+        return format!("⟨{name}|{}", capital(instead));
+    }
     let name = text.split_once('⟨').map_or(text, |(name, _)| name);
     if !name.contains(' ') {
         return text.to_owned();

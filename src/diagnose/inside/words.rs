@@ -131,11 +131,9 @@ fn lacks(assignment: &Assignment, line: u32, name: Option<&str>, missing: &[Stri
     )
 }
 
-/// What a definition means, or what the lecture calls it.
+/// What a definition or a variable of the solution means, or what the lecture calls it.
 pub(super) fn meaning(assignment: &Assignment, name: &str) -> Option<Text> {
-    let definition = assignment.equation.definitions().iter().find(|definition| definition.name == name)?;
-    let means = definition.means.as_ref().map(|means| Text::new(&means.en, &means.ja));
-    means.or_else(|| Some(Text::verbatim(definition.symbol.as_ref()?)))
+    assignment.names.get(name)?.said().map(Text::from)
 }
 
 fn written(numbers: &[f64]) -> String {

@@ -6,6 +6,7 @@
 mod flow;
 
 use crate::Assignment;
+use crate::assignment::HandedIn;
 use crate::feature::Feature;
 use crate::interpreter::DISCARD;
 use crate::interpreter::outline::{Word, words};
@@ -57,6 +58,11 @@ pub(super) fn complete(assignment: &mut Assignment) {
         let more = lines_of.named(about).into_iter().chain(thrown).filter(|name| !said.contains(name));
         assignment.rubric[at].variables.extend(more);
     }
+}
+
+/// The names of what is computed in a solution.
+pub(super) fn computed(files: &[HandedIn]) -> BTreeSet<String> {
+    Flow::of(files).computed().map(|(_, name)| name.clone()).collect()
 }
 
 /// What belongs to a feature without which these texts are replaced; none where that is not within a function.

@@ -1,15 +1,15 @@
 //! What mistakes and messages are called, and what they say.
 
 use super::*;
+use crate::interpreter::Operator;
 
 /// What is said must be said in both languages, and a placeholder must not be left over when its value is not known.
 #[test]
 fn every_text_stands_in_both_languages_and_can_do_without_values() {
     let a = assignment("ggsample06").expect("built in");
     // A definition is always known, by the student's name or by its symbol.
-    let definitions = a.equation.definitions().iter();
-    let names: Vec<(&str, &str)> =
-        definitions.filter_map(|one| Some((one.name.as_str(), one.symbol.as_deref()?))).collect();
+    let names = a.names.iter().filter_map(|(name, own)| Some((name.as_str(), own.symbol.as_deref()?)));
+    let names: Vec<(&str, &str)> = names.collect();
     for mistake in &a.mistakes {
         for text in [&mistake.seen, &mistake.equation, &mistake.look] {
             let bare = text.fill(&names);
@@ -74,4 +74,25 @@ fn what_goes_wrong_in_any_homework_has_texts_until_a_folder_has_its_own() {
     let kept = |id: &str, line: &str| waves.mistake(id).expect(id).keeps(line);
     assert_eq!([kept("position-changed", "surface"), kept("position-changed", "colour")], [0.0, 1.0]);
     assert_eq!([kept("unexplained", "surface"), kept("unexplained", "colour")], [1.0, 0.0]);
+}
+
+#[test]
+fn what_a_solution_of_branches_computes_has_names_of_the_lecture() {
+    let said = "\n[definition.n]\nmeans = { en = \"the normal vector\", ja = \"法線ベクトル\" }\n\n[[rubric]]\n";
+    let named = Assignment::load(changed(homework("toon"), "assignment.toml", "\n[[rubric]]\n", said));
+    let mistake = named.expect("a homework").repaired(Operator::NormalizeLeftOut, Some("n"), false);
+    assert_eq!(
+        (mistake.id.as_str(), mistake.title.en.as_str()),
+        ("derived-normalize-missing-n", "Vector not of length 1 (the normal vector)")
+    );
+    let said = mistake.look.fill(&[("line", "7"), ("name", "m")]).en;
+    assert!(said.starts_with("The normal vector (here `m`) on line 7 does not have length 1."), "{said}");
+    // What has no name is called as the student calls it, and nothing where that is not known.
+    let toon = Assignment::load(homework("toon")).expect("a homework");
+    let look = toon.repaired(Operator::NormalizeLeftOut, None, false).look;
+    assert!(look.fill(&[("name", "m")]).en.starts_with("`m` does not have length 1."), "{look:?}");
+    assert!(look.fill(&[]).en.starts_with("The result does not have length 1."), "{look:?}");
+    let said = "\n[definition.nn]\nsymbol = \"N\"\n\n[[rubric]]\n";
+    let other = refused(changed(homework("toon"), "assignment.toml", "\n[[rubric]]\n", said)).en;
+    assert!(other.contains("definition `nn`: the solution computes no `nn`; it computes "), "{other}");
 }

@@ -5,23 +5,18 @@ use crate::assignment::check::CheckResult;
 use crate::assignment::{Constant, Interface};
 use crate::equation::{Definition, Equation, Reads};
 use crate::interpreter::{Cell, Formula, Texture};
-use crate::manifest::Manifest;
 use crate::pipeline::Pipeline;
 use std::sync::Arc;
 
 impl CheckedSolution<'_> {
-    /// The equation that the solution is, with what the lecture calls its definitions.
+    /// The equation that the solution is.
     pub(in crate::assignment::check) fn finish(
         self,
-        m: &Manifest,
         interface: &Interface,
         pipeline: &Pipeline,
         constants: &[Constant],
         textures: Arc<[Texture]>,
     ) -> CheckResult<Equation> {
-        for name in m.definition.keys() {
-            self.definition(name, &|| format!("definition `{name}`"))?;
-        }
         let colour = self.output(None)?;
         let has_position = self.draft.stored().iter().any(|stored| stored.output == POSITION);
         let position = has_position.then(|| self.output(Some(POSITION))).transpose()?;
@@ -30,10 +25,7 @@ impl CheckedSolution<'_> {
         let cells = self.draft.cells();
         let definition = |formula: &Formula| {
             let Cell { name, kind, .. } = cells[formula.cell()].clone();
-            let said = m.definition.get(&name);
-            let (slide, symbol) = said.map_or((None, None), |said| (said.slide, said.symbol.clone()));
-            let means = said.and_then(|said| said.means.clone());
-            Definition { name, kind, formula: formula.clone(), slide, symbol, means }
+            Definition { name, kind, formula: formula.clone() }
         };
         let definitions: Vec<Definition> = self.draft.formulas().iter().map(definition).collect();
         let given = |name: &str| cells[..self.first].iter().position(|cell| cell.name == *name);
