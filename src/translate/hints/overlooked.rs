@@ -4,9 +4,10 @@ use super::declarations::{DeclarationKind, DeclaredName};
 use super::directives::directive_name;
 use super::file::HintContext;
 use super::suggestions;
-use super::tokens::LexemeKind;
+use super::tokens::{Lexeme, LexemeKind};
 use crate::diagnostic::{Diagnostic, DiagnosticStage};
 use crate::language::Text;
+use crate::source;
 use crate::translate::log::MAX_DIAGNOSTICS;
 use crate::translate::{LinkedInterface, Variable};
 
@@ -53,7 +54,7 @@ fn version_number(file: &HintContext<'_>) -> u32 {
     number.and_then(|number| number.parse().ok()).unwrap_or(0)
 }
 
-/// `.rgb2`: the compiler drops a last character that names no component.
+/// `.rgb2`, `.e`: the compiler drops a character that names no component.
 fn swizzles(file: &HintContext<'_>) -> Vec<Diagnostic> {
     let mut found = Vec::new();
     for index in 2..file.code.len() {
@@ -62,10 +63,10 @@ fn swizzles(file: &HintContext<'_>) -> Vec<Diagnostic> {
             && field.kind == LexemeKind::Word
             && file.code[index - 2].text != "gl_DepthRange";
         let called = file.word(Some(index + 1)) == "(";
-        // A member of a structure, a macro, or a branch of `#if` that nobody compiles may be called anything.
+        // A member of a structure, what a macro writes, or a branch of `#if` that nobody compiles may be called anything.
         let built_in = [file.code[index - 2].text, field.text].iter().any(|name| name.starts_with("gl_"));
-        let known = file.anywhere(field.text).is_some() || built_in;
-        if !is_field || called || known || file.definition(field.text).is_some() || is_conditional(file, field.start) {
+        let known = built_in || is_member(file, field.text) || is_in_macro(file, field.text);
+        if !is_field || called || known || is_conditional(file, field.start) {
             continue;
         }
         if let Some(odd) = field.text.chars().find(|c| !"xyzwrgbastpq".contains(*c)) {
@@ -77,6 +78,25 @@ fn swizzles(file: &HintContext<'_>) -> Vec<Diagnostic> {
         }
     }
     found
+}
+
+/// Whether a structure or a block has a member of this name.
+fn is_member(file: &HintContext<'_>, name: &str) -> bool {
+    file.declarations.iter().filter(|d| d.name == name && !d.global).any(|d| structure_around(file, d.index).is_some())
+}
+
+/// Whether a macro is called so, or has the name in what it stands for.
+fn is_in_macro(file: &HintContext<'_>, name: &str) -> bool {
+    let is_macro = |line: &&Lexeme<'_>| directive_name(line.text) == "define";
+    file.directives.iter().filter(is_macro).any(|line| source::words(line.text).any(|(_, word)| word == name))
+}
+
+/// The name of the structure or block, among the code tokens, between whose braces the token at `index` stands.
+fn structure_around(file: &HintContext<'_>, index: usize) -> Option<usize> {
+    let inside = file.code[..index].iter().rposition(|token| matches!(token.text, "{" | "}"))?;
+    let name = inside.checked_sub(1).filter(|_| file.code[inside].text == "{")?;
+    let is_it = |d: &DeclaredName<'_>| d.role == DeclarationKind::Structure && d.index == name;
+    (file.code[name].text == "struct" || file.declarations.iter().any(is_it)).then_some(name)
 }
 
 /// Whether the byte `offset` lies between an `#if` and its `#endif`.
@@ -97,11 +117,9 @@ fn output_in_block(file: &HintContext<'_>) -> Option<Diagnostic> {
 
 fn one_in_block(file: &HintContext<'_>, variable: &Variable) -> Option<Diagnostic> {
     let output = file.anywhere(&variable.name).filter(|d| !d.global)?;
-    let inside = file.code[..output.index].iter().rposition(|token| matches!(token.text, "{" | "}"))?;
-    let block = inside.checked_sub(1)?;
-    let is_block = |d: &DeclaredName<'_>| d.role == DeclarationKind::Structure && d.ty == "out" && d.index == block;
-    (file.code[inside].text == "{" && file.declarations.iter().any(is_block))
-        .then(|| super::link::output_missing(file, variable))
+    let block = structure_around(file, output.index)?;
+    let is_block = |d: &DeclaredName<'_>| d.ty == "out" && d.index == block;
+    file.declarations.iter().any(is_block).then(|| super::link::output_missing(file, variable))
 }
 
 /// An output that is `flat` or `noperspective` where the fragment shader's input is not, or the other way round.

@@ -100,6 +100,8 @@ const TYPES: &[HintCase] = &[
     ("p.xyz / p.w", "p.§xyq / p.w", "different sets|`stpq`", "異なる組"),
     ("xyz + v", "xyz + v.§xyw", "does not have", "ない成分"),
     ("pow(cosine", "pow(cosine.§x", "no components", "成分はありません"),
+    ("normalize(p.xyz / p.w)", "normalize(p.xyz / p.§shine)", "no components `shine`", "成分はありません"),
+    ("p.xyz / p.w", "p.xyz / p.§v", "no components `v`", "成分はありません"),
     ("dot(n, h)", "n.§dot(h)", "dot(a, b)", "dot(a, b)"),
     ("  // 合計", "  if (cosine §= 1.0) cosine = 0.0;", "`==`", "`==`"),
     ("  // 合計", "  if (§cosine) cosine = 0.0;", "type float", "float 型"),
