@@ -135,7 +135,7 @@ fn given_for(runs: &Runs<'_>, stage: Stage, events: &[usize]) -> BTreeSet<String
     let mut given = BTreeSet::new();
     for event in way(trace, events).into_iter().map(|number| &trace.events[number]) {
         let name = match &own.sites()[event.site].what {
-            What::Read(name) if event.from.is_empty() => name,
+            What::Read(name) if is_given(own, trace, event, name) => name,
             What::Call(name) if is_lookup(name) => {
                 given.insert("texture".into());
                 continue;
@@ -196,13 +196,22 @@ fn way(trace: &Trace, roots: &[usize]) -> BTreeSet<usize> {
     way
 }
 
+/// Whether the text gives a variable no value that is read. An index that it is read with is none.
+fn is_given(program: &Program, trace: &Trace, event: &Event, name: &str) -> bool {
+    let gives = |from: &usize| {
+        let site = &program.sites()[trace.events[*from].site];
+        matches!(&site.what, What::Assign { name: given, .. } if given == name)
+    };
+    !event.from.iter().any(gives)
+}
+
 /// The variables that are read on the way of some events.
 fn read_on_the_way(program: &Program, trace: &Trace, roots: &[usize]) -> Read {
     let way = way(trace, roots);
     let mut read = Read { all: BTreeSet::new(), varying: BTreeSet::new() };
     for event in way.into_iter().map(|number| &trace.events[number]) {
         let What::Read(name) = &program.sites()[event.site].what else { continue };
-        if event.from.is_empty() && !is_constant(&event.values) && !NUMBERS.contains(&name.as_str()) {
+        if is_given(program, trace, event, name) && !is_constant(&event.values) && !NUMBERS.contains(&name.as_str()) {
             read.varying.insert(name.clone());
         }
         read.all.insert(name.clone());
