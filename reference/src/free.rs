@@ -1,11 +1,14 @@
 //! Uniforms that students add and name: what they are is found by their types, and by what the answer shows with them.
 //!
 //! A program that a student extends is fed by a host program of which nothing is handed in. So each new uniform is tried as all that the
-//! homework says it may be. The first way in which the answer shows what is right is taken, or else the way in which it shows most of it.
+//! homework says it may be. The first way in which the answer shows what is right is taken, or else the way in which it computes most of
+//! it.
+
+mod progress;
 
 use crate::assignment::Uniform;
 use crate::feed::Feed;
-use crate::interpreter::{Program, ProgramVariable, Type};
+use crate::interpreter::{Program, ProgramVariable, Stage, Type};
 use crate::pipeline::Pipeline;
 use crate::probes::{Probe, ProbeGroup, ProbeOutput, ProbeSet};
 use crate::scene::Moment;
@@ -64,13 +67,18 @@ fn likely(ways: usize, right: &dyn Fn(&[usize]) -> Vec<usize>) -> Vec<usize> {
 }
 
 impl Assignment {
-    /// What the uniforms of a student's program are that the homework does not know. `probes` decide where there are several ways.
-    pub fn taken(
-        &self,
-        vertex: &Arc<Program>,
-        fragment: &Arc<Program>,
-        probes: &ProbeSet,
-    ) -> Vec<RecognisedUniform<'_>> {
+    /// What the uniforms of a student's program are that the homework does not know; none where it is not known what its texts do.
+    /// `probes` decide where there are several ways.
+    pub fn taken(&self, texts: &[(Stage, &str)], probes: &ProbeSet) -> Vec<RecognisedUniform<'_>> {
+        let [mut vertex, mut fragment] = [&self.pipeline.vertex, &self.pipeline.fragment].map(Arc::clone);
+        for (stage, text) in texts {
+            let Ok(program) = Program::compile(text, *stage) else { return Vec::new() };
+            let own = match stage {
+                Stage::Vertex => &mut vertex,
+                Stage::Fragment => &mut fragment,
+            };
+            *own = Arc::new(program);
+        }
         let mut added: Vec<&ProgramVariable> = Vec::new();
         for uniform in vertex.uniforms().iter().chain(fragment.uniforms()) {
             let is_known = self.interface.uniforms.iter().any(|own| own.is(uniform) && own.kind == uniform.kind)
@@ -90,19 +98,22 @@ impl Assignment {
             }
             taken
         };
-        let linked = Pipeline::link(vertex, fragment, None).ok();
+        let linked = Pipeline::link(&vertex, &fragment, None).ok();
         let (Some(ways @ 2..=MOST_WAYS), Some(pipeline)) = (ways, linked) else { return way(0) };
         let extended = self.with(&way(0));
-        let right = |numbers: &[usize], probes: &ProbeSet| {
+        // The probes with what the uniforms are in some ways.
+        let given = |numbers: &[usize], probes: &ProbeSet| {
             let values: Vec<Vec<Value>> = probes.groups.iter().map(|group| extended.added_values(group)).collect();
-            let given = |number: &usize| {
+            ProbeSet::joined(numbers.iter().map(|number| {
                 let mut theirs = probes.clone();
                 for (group, values) in theirs.groups.iter_mut().zip(&values) {
                     group.uniforms.extend(way(*number).iter().map(|taken| values[self.place(taken.as_what)].clone()));
                 }
                 theirs
-            };
-            let all = ProbeSet::joined(numbers.iter().map(given));
+            }))
+        };
+        let right = |numbers: &[usize], probes: &ProbeSet| {
+            let all = given(numbers, probes);
             let shown = extended.shown_once(&pipeline, &all).unwrap_or_default();
             let is_right = |(probe, shown): &(&Probe, &ProbeOutput)| {
                 (probe.colour - shown.colour).abs().max_element() <= TOLERANCE
@@ -115,20 +126,21 @@ impl Assignment {
         // What does not fit at a few probes need not be run at all of them.
         let (_, few) = probes.part(FEW_GROUPS);
         let likely = likely(ways, &|numbers| right(numbers, &few.thinned(1)));
-        let open = may_be.iter().filter(|may_be| may_be.len() > 1).count();
-        let mut best = (0, 0);
+        let mut counts = Vec::with_capacity(likely.len());
         for numbers in likely.chunks(LANES / few.probes.len().max(1)) {
             for (count, number) in right(numbers, &few).into_iter().zip(numbers) {
                 if count == few.probes.len() && right(&[*number], probes)[0] == probes.probes.len() {
                     return way(*number);
                 }
-                // Of one uniform alone it is taken that it is what the homework expects: what else is wrong is known by that.
-                if count > best.0 && open > 1 {
-                    best = (count, *number);
-                }
+                counts.push(count);
             }
         }
-        way(best.1)
+        // Of one uniform alone it is taken that it is what the homework expects, where the text says nothing else: what else is wrong is
+        // known by that.
+        let is_alone = may_be.iter().filter(|may_be| may_be.len() > 1).count() < 2;
+        let progress = self.progress(&extended, texts, &few, &likely, &given);
+        let kept = |at: &usize| (progress[*at], if is_alone { 0 } else { counts[*at] }, std::cmp::Reverse(*at));
+        (0..likely.len()).max_by_key(kept).map_or_else(|| way(0), |best| way(likely[best]))
     }
 
     /// The homework, which sets these uniforms as well. Two may have one name, and different types.

@@ -5,10 +5,9 @@ use crate::language::Text;
 use crate::report::AdviceLine;
 use crate::source::Source;
 use crate::translate::{HomeworkProgram, LinkedInterface, Stage};
+use reference::Assignment;
 use reference::free::RecognisedUniform;
 use reference::probes::ProbeSet;
-use reference::{Assignment, interpreter};
-use std::sync::Arc;
 
 /// A homework whose program sets a student's own uniforms as well.
 pub(super) struct Extended {
@@ -30,16 +29,8 @@ impl Extended {
         if assignment.free.is_empty() {
             return Ok(None);
         }
-        let [mut vertex, mut fragment] = [&assignment.pipeline.vertex, &assignment.pipeline.fragment].map(Arc::clone);
-        for (stage, source) in sources {
-            let Ok(program) = interpreter::Program::compile(&source.text, *stage) else { return Ok(None) };
-            let own = match stage {
-                Stage::Vertex => &mut vertex,
-                Stage::Fragment => &mut fragment,
-            };
-            *own = Arc::new(program);
-        }
-        let taken = assignment.taken(&vertex, &fragment, probes);
+        let texts: Vec<(Stage, &str)> = sources.iter().map(|(stage, source)| (*stage, source.text.as_str())).collect();
+        let taken = assignment.taken(&texts, probes);
         if taken.is_empty() {
             return Ok(None);
         }

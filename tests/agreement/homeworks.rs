@@ -5,7 +5,7 @@ use ggrade::opengl::{disagreeing, frame, texts};
 use ggrade::render::{AdapterKind, Device, RenderScene, Renderer};
 use ggrade::source;
 use ggrade::translate::{HomeworkProgram, LinkedInterface, Stage};
-use reference::interpreter::{Program as Compiled, Texels};
+use reference::interpreter::Texels;
 use reference::rasteriser::{Coverage, Frame};
 use reference::{Assignment, Folder, assignment};
 use std::collections::BTreeMap;
@@ -156,9 +156,8 @@ fn extended(assignment: &Assignment, texts: [&str; 2]) -> Option<Assignment> {
     if assignment.free.is_empty() {
         return None;
     }
-    let stages = [Stage::Vertex, Stage::Fragment];
-    let compiled = |at: usize| Compiled::compile(texts[at], stages[at]).map(Arc::new).expect("a text");
-    let taken = assignment.taken(&compiled(0), &compiled(1), &assignment.judging_probes());
+    let texts = [(Stage::Vertex, texts[0]), (Stage::Fragment, texts[1])];
+    let taken = assignment.taken(&texts, &assignment.judging_probes());
     let mut extended = assignment.with(&taken);
     let all = extended.interface.uniforms.clone();
     let is_last = |place: usize| all[place + 1..].iter().all(|other| other.path != all[place].path);

@@ -3,28 +3,23 @@
 use super::{changed, refused};
 use crate::assignment::{Assignment, MANIFEST};
 use crate::built_in::assignment;
-use crate::interpreter::{Program, Stage, Texels};
+use crate::interpreter::{Stage, Texels};
 use crate::pipeline::Pipeline;
 use crate::probes::EdgeDefect;
 use crate::rasteriser::Coverage;
 use crate::{Folder, feed::Feed};
-use std::sync::Arc;
 
 fn shadows() -> Folder {
     Folder::clone(&assignment("ggsample11-map").expect("built in").folder)
-}
-
-fn compiled(text: &str, stage: Stage) -> Arc<Program> {
-    Arc::new(Program::compile(text, stage).unwrap_or_else(|refusal| panic!("{refusal}")))
 }
 
 /// The ids of what the uniforms of an answer are taken for.
 fn taken(vertex: impl Fn(&str) -> String, fragment: impl Fn(&str) -> String) -> Vec<(String, String)> {
     let assignment = assignment("ggsample11-map").expect("built in");
     let text = |at: usize| assignment.files[at].solution.text.as_str();
-    let vertex = compiled(&vertex(text(0)), Stage::Vertex);
-    let fragment = compiled(&fragment(text(1)), Stage::Fragment);
-    let taken = assignment.taken(&vertex, &fragment, &assignment.judging_probes());
+    let [vertex, fragment] = [vertex(text(0)), fragment(text(1))];
+    let taken =
+        assignment.taken(&[(Stage::Vertex, &vertex), (Stage::Fragment, &fragment)], &assignment.judging_probes());
     taken.into_iter().map(|taken| (taken.name, taken.as_what.id.clone())).collect()
 }
 
@@ -166,6 +161,20 @@ fn of_an_answer_that_is_never_right_a_single_matrix_is_what_the_slides_have() {
     let renamed = |text: &str| text.replace("ms", "shadowMatrix");
     let dark = |text: &str| text.replace("(idiff + ispec) * lit", "(idiff + ispec) * (1.0 - lit)");
     assert_eq!(taken(renamed, dark), pairs(&[("shadowMatrix", "matrix-to-clip-space")]));
+}
+
+#[test]
+fn of_an_answer_that_is_never_right_several_matrices_are_what_its_text_computes_most_with() {
+    let scaled = |text: &str| text.replace("ndc * 0.5 + 0.5", "ndc * 0.95 + 0.5");
+    let apart = |text: &str| text.replace("uniform mat4 ms;", "uniform mat4 m, vp;").replace("ms * pv", "vp * m * pv");
+    let meant = pairs(&[("m", "matrix-of-the-model"), ("vp", "matrix-of-the-light")]);
+    assert_eq!(taken(apart, scaled), meant);
+    let turned = |text: &str| apart(text).replace("lpos.w).xyz", "lpos.w).yzx");
+    assert_eq!(taken(turned, same), meant);
+    // What scales by itself nowhere is given what has the scaling in it, whatever else is wrong.
+    let renamed = |text: &str| text.replace("ms", "shadowMatrix").replace("lpos.w).xyz", "lpos.w).yzx");
+    let projected = |text: &str| text.replace("ndc * 0.5 + 0.5", "ndc");
+    assert_eq!(taken(renamed, projected), pairs(&[("shadowMatrix", "matrix-to-texture-space")]));
 }
 
 #[test]
