@@ -23,7 +23,7 @@ const SAMPLES: [(&str, usize); 30] = [
     ("falloff-linear", 210),
     ("falloff-pixar", 221),
     ("falloff-quadratic", 207),
-    ("flat", 147),
+    ("flat", 148),
     ("fog", 13),
     ("ggsample06", 1465),
     ("ggsample11-map", 86),
