@@ -121,10 +121,12 @@ fn lacks(assignment: &Assignment, line: u32, name: Option<&str>, missing: &[Stri
             format!("{line} 行目の{}和に、足りない項があります。", of.1),
         );
     };
-    let [en, ja] = [
-        known.iter().map(|text| text.en.as_str()).collect::<Vec<_>>().join(" and "),
-        known.iter().map(|text| text.ja.as_str()).collect::<Vec<_>>().join("と"),
-    ];
+    let ja = known.iter().map(|text| text.ja.as_str()).collect::<Vec<_>>().join("と");
+    let en: Vec<&str> = known.iter().map(|text| text.en.as_str()).collect();
+    let en = match &en[..] {
+        [before @ .., last] if !before.is_empty() => format!("{} and {last}", before.join(", ")),
+        _ => en.concat(),
+    };
     Text::new(
         format!("The sum{} on line {line} lacks {en}.", of.0),
         format!("{line} 行目の{}和に、{ja}が入っていません。", of.1),
