@@ -10,6 +10,8 @@ mod blocks;
 mod folders;
 #[path = "cli/manual.rs"]
 mod manual;
+#[path = "cli/marble.rs"]
+mod marble;
 #[path = "cli/messages.rs"]
 mod messages;
 #[path = "cli/own_values.rs"]

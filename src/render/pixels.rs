@@ -12,8 +12,17 @@ use reference::Values;
 use reference::interpreter::Type;
 use wgpu::util::DeviceExt;
 
-/// Pixels of a row of the target.
+/// Probes of a row of the target.
 const SIDE: u32 = 64;
+
+/// Each probe has 2 × 2 pixels of its own, of which it is the first. A derivative is a difference within these, so it would be another
+/// one at the second: the interpreter takes the first, and so do both answers that are compared.
+const SPACING: u32 = 2;
+
+/// Where a probe lies in the target: the pixels to its left, and the rows before it.
+fn place(probe: u32) -> [u32; 2] {
+    [probe % SIDE * SPACING, probe / SIDE * SPACING]
+}
 
 /// What the target is cleared to: no shader computes just this.
 const NOTHING: f64 = -1.234_567_890_123e38;
@@ -43,8 +52,9 @@ impl PixelPass {
         let drawn: Vec<&DrawCall> = batches.iter().collect();
         let data = FragmentData::new(&device.device, stage, &drawn, textures, false);
         let count: u32 = batches.iter().map(DrawCall::vertices).sum();
-        let size = wgpu::Extent3d { width: SIDE, height: count.div_ceil(SIDE).max(1), depth_or_array_layers: 1 };
-        let [records, shifts] = corners(stage, batches, size.height).map(|contents| {
+        let [width, height] = [SIDE, count.div_ceil(SIDE).max(1)].map(|probes| probes * SPACING);
+        let size = wgpu::Extent3d { width, height, depth_or_array_layers: 1 };
+        let [records, shifts] = corners(stage, batches, size).map(|contents| {
             device.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
                 label: Some("probes"),
                 contents: &contents,
@@ -129,7 +139,7 @@ impl PixelPass {
         let readbacks = textures
             .iter()
             .map(|texture| {
-                let bytes_per_row = SIDE * CAPTURE_SLOT as u32;
+                let bytes_per_row = size.width * CAPTURE_SLOT as u32;
                 let readback = device.device.create_buffer(&wgpu::BufferDescriptor {
                     label: Some("probes, read back"),
                     size: u64::from(bytes_per_row) * u64::from(size.height),
@@ -158,7 +168,9 @@ impl PixelPass {
 pub(super) fn split(stage: &FragmentStage, batches: &[DrawCall], outputs: &[Vec<u32>]) -> Vec<Vec<Pixel>> {
     let mut number = 0;
     let mut next = || {
-        let words = |output: &Vec<u32>| -> [u32; 4] { std::array::from_fn(|axis| output[4 * number + axis]) };
+        let [column, row] = place(number);
+        let first = 4 * (row * SIDE * SPACING + column) as usize;
+        let words = |output: &Vec<u32>| -> [u32; 4] { std::array::from_fn(|axis| output[first + axis]) };
         let all: Vec<[u32; 4]> = outputs.iter().map(words).collect();
         number += 1;
         let value = |(output, words): (&StageVariable, &[u32; 4])| {

@@ -1,6 +1,6 @@
 //! Three corners around the middle of each probe's pixel.
 
-use super::SIDE;
+use super::place;
 use crate::render::fragments::{FragmentStage, is_flat};
 use crate::render::scene::{DrawCall, WINDOW};
 use crate::translate::StageVariable;
@@ -10,8 +10,8 @@ use naga::ScalarKind;
 const PLACE: &str = "gl_FragCoord";
 const FACING: &str = "gl_FrontFacing";
 
-/// The records of all corners, and what is added to the `gl_FragCoord` of each.
-pub(super) fn corners(stage: &FragmentStage, batches: &[DrawCall], rows: u32) -> [Vec<u8>; 2] {
+/// The records of all corners in a target of this `size`, and what is added to the `gl_FragCoord` of each.
+pub(super) fn corners(stage: &FragmentStage, batches: &[DrawCall], size: wgpu::Extent3d) -> [Vec<u8>; 2] {
     let (mut records, mut shifts): (Vec<u32>, Vec<f32>) = (Vec::new(), Vec::new());
     let mut number = 0;
     for batch in batches {
@@ -25,14 +25,12 @@ pub(super) fn corners(stage: &FragmentStage, batches: &[DrawCall], rows: u32) ->
             .iter()
             .map(|input| (input, column(&input.name), beside(0, input).zip(beside(1, input))))
             .collect();
-        let [place, facing, window] = [PLACE, FACING, WINDOW].map(column);
+        let [given_place, facing, window] = [PLACE, FACING, WINDOW].map(column);
         for vertex in 0..batch.vertices() as usize {
-            let middle = [number % SIDE, number / SIDE].map(|at| f64::from(at) + 0.5);
+            let middle = place(number).map(|at| f64::from(at) + 0.5);
             number += 1;
-            let shift: [f64; 2] = std::array::from_fn(|axis| {
-                place.and_then(|place| place.iter().nth(vertex)?.get(axis).copied()).map_or(0.0, |at| at - middle[axis])
-            });
-            let given = |axis: usize| place.and_then(|place| place.iter().nth(vertex)?.get(axis).copied());
+            let given = |axis: usize| given_place.and_then(|place| place.iter().nth(vertex)?.get(axis).copied());
+            let shift: [f64; 2] = std::array::from_fn(|axis| given(axis).map_or(0.0, |at| at - middle[axis]));
             let window_rows = window.and_then(|window| window.iter().nth(vertex)?.get(1).copied()).unwrap_or(0.0);
             let shift = stage.shift(shift, window_rows);
             // Window depth d is (z/w + 1)/2, and `gl_FragCoord.w` is 1/w.
@@ -44,8 +42,8 @@ pub(super) fn corners(stage: &FragmentStage, batches: &[DrawCall], rows: u32) ->
                 around.swap(0, 1);
             }
             for [dx, dy] in around {
-                let x = (middle[0] + dx) / f64::from(SIDE) * 2.0 - 1.0;
-                let y = (middle[1] + dy) / f64::from(rows) * 2.0 - 1.0;
+                let x = (middle[0] + dx) / f64::from(size.width) * 2.0 - 1.0;
+                let y = (middle[1] + dy) / f64::from(size.height) * 2.0 - 1.0;
                 records.extend([x * w, y * w, z * w, w].map(|number| (number as f32).to_bits()));
                 for (input, column, beside) in &inputs {
                     let numbers = column.and_then(|column| column.iter().nth(vertex)).unwrap_or_default();

@@ -1,0 +1,16 @@
+//! A homework of two stages with derivatives, a `switch`, and an array between the stages, and what answers to it are told.
+
+use super::authoring::Written;
+
+fn written() -> Written {
+    Written::from(&["marble.vert", "marble.frag"])
+}
+
+/// The pixels of four have different derivatives of such a height: those that are compared have the same place among them.
+#[test]
+fn a_derivative_of_what_is_no_plane_is_graded_as_it_is_drawn() {
+    let written = written();
+    written.tells("abs(dFdy(height))", "abs(dFdx(height))");
+    let report = written.graded(&[("abs(dFdx(height)) + abs(dFdy(height))", "fwidth(height)")]);
+    assert_eq!((&report["verdict"], &report["cross_check"]["opinion"]), (&"correct".into(), &"agrees".into()));
+}
