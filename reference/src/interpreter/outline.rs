@@ -130,12 +130,14 @@ fn function(words: &[Word], open: usize, close: usize) -> Option<FunctionText> {
     })?;
     let [.., result, name] = &words[..bracket] else { return None };
     let name = Some(name).filter(|name| name.is_name)?.clone();
+    let start = words[open].range.end;
     Some(FunctionText {
         result: result.clone(),
         name,
         parameters: words[bracket + 1..before].to_vec(),
-        body: words[open].range.end..words[close].range.start,
-        statements: statements(&words[open + 1..close]),
+        // A file may end behind the brace.
+        body: start..words[close].range.start.max(start),
+        statements: statements(words.get(open + 1..close).unwrap_or_default()),
     })
 }
 
@@ -207,6 +209,15 @@ mod tests {
         assert_eq!(depths, [0, 0, 1]);
         let assigned = found[1].statements[1].assignment().map(|at| found[1].statements[1].words[at].text.as_str());
         assert_eq!(assigned, Some("+="));
+    }
+
+    #[test]
+    fn a_file_that_ends_within_a_function_has_it_without_a_statement() {
+        for text in ["void main() {", "void main() { /* float x = 1.0; }"] {
+            let found = functions(text);
+            assert_eq!((found.len(), found[0].statements.len()), (1, 0), "{text}");
+            assert_eq!(found[0].body, 13..13, "{text}");
+        }
     }
 
     fn joined(words: &[Word]) -> String {
