@@ -169,6 +169,7 @@ pub fn warm_up() {
     let interface = LinkedInterface {
         stage: Stage::Vertex,
         inputs: vec![],
+        attributes: Vec::new(),
         uniforms: vec![],
         outputs: vec![Variable { name: "colour".into(), ty: "vec4".into() }],
         constants: vec![],

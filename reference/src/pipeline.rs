@@ -1,6 +1,6 @@
 //! A vertex and a fragment stage, linked: what is handed from one to the other, and what is seen of it.
 
-use crate::assignment::{Interface, Uniform};
+use crate::assignment::{Input, Interface, Uniform};
 use crate::interpreter::{
     BlockPlace, Copied, Interpolation, Nature, Outputs, Program, ProgramVariable, Run, Scalar, Texture, Type, std140,
 };
@@ -286,7 +286,7 @@ impl Interface {
     ) -> Option<Outputs> {
         let mut given: Vec<(&str, Vec<Vec<f64>>)> = Vec::new();
         for input in program.inputs() {
-            let own = self.inputs.iter().find(|own| own.name == input.name);
+            let own = Input::fed(&self.inputs, program, input);
             let columns = match own {
                 Some(own) => own.stream.columns(&own.kind, input, vertices),
                 None => match Vertex::number_by(&input.name) {

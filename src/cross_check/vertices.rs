@@ -3,7 +3,7 @@
 use super::CrossCheck;
 use crate::language::Text;
 use crate::render::DrawCall;
-use reference::assignment::Interface;
+use reference::assignment::{Input, Interface};
 use reference::interpreter::{Mismatch, Outputs, Precision, Program, Run, Stopped};
 use reference::pipeline::UniformSource;
 
@@ -70,7 +70,8 @@ impl<'a> VertexColumns<'a> {
     fn feed<'b>(&'b self, program: &'b Program, interface: &Interface) -> Result<Run<'b>, Mismatch> {
         let mut run = program.run(self.numbers.len());
         for input in program.inputs() {
-            let given = self.attributes.iter().find(|(name, _)| *name == input.name);
+            let fed = Input::fed(&interface.inputs, program, input).map_or(&input.name, |fed| &fed.name);
+            let given = self.attributes.iter().find(|(name, _)| name == fed);
             let count = input.kind.slots().unwrap_or(0);
             let columns: Vec<&[f64]> = match given {
                 _ if input.name == "gl_VertexID" => vec![&self.numbers],

@@ -28,6 +28,8 @@ pub struct LinkedInterface {
     pub stage: Stage,
     /// Vertex attributes.
     pub inputs: Vec<Variable>,
+    /// The same as the homework has them.
+    pub attributes: Vec<assignment::Input>,
     /// Uniforms of the default block.
     pub uniforms: Vec<Variable>,
     /// What the shader writes: the varyings that the fixed fragment shader reads, or a fragment shader's colours.
@@ -66,6 +68,7 @@ impl LinkedInterface {
         Ok(Self {
             stage: Stage::Vertex,
             inputs: assignment.interface.inputs.iter().map(|input| variable(&input.name, &input.kind)).collect(),
+            attributes: assignment.interface.inputs.clone(),
             uniforms: uniforms.map(|(_, uniform)| variable(&uniform.path, &uniform.kind)).collect(),
             outputs: assignment.interface.outputs.iter().map(|output| variable(&output.name, &output.kind)).collect(),
             constants: assignment.constants.iter().map(|constant| constant.name.clone()).collect(),

@@ -15,7 +15,8 @@ use crate::ffi::glslang::Stage;
 use crate::language::Text;
 use crate::source::Source;
 use naga::{Module, TypeInner};
-use reference::interpreter::WindowCoordinates;
+use reference::assignment::Input;
+use reference::interpreter::{Program, WindowCoordinates};
 
 /// A stage that wgpu can run.
 #[derive(Clone, Debug)]
@@ -122,6 +123,21 @@ pub(super) struct Built {
     pub poisons: bool,
 }
 
+/// Calls inputs of a vertex stage as the homework does, of which only the location is the homework's.
+fn name_by_location(inputs: &mut [AttributePart], source: &Source, interface: &LinkedInterface) {
+    let is_known = |part: &AttributePart| interface.inputs.iter().any(|input| input.name == part.attribute.name);
+    if inputs.iter().all(is_known) || !source.text.contains("location") {
+        return;
+    }
+    let Ok(program) = Program::compile(&source.text, Stage::Vertex) else { return };
+    for part in inputs {
+        let own = program.inputs().iter().find(|own| own.name == part.attribute.name);
+        if let Some(fed) = own.and_then(|own| Input::fed(&interface.attributes, &program, own)) {
+            part.attribute.name.clone_from(&fed.name);
+        }
+    }
+}
+
 /// Makes the module. A fault here is our limit, not the student's.
 pub(super) fn build(
     written: Vec<u32>,
@@ -149,6 +165,9 @@ pub(super) fn build(
     let shift = match how.stage {
         Stage::Vertex => {
             entry::leave_unset(&mut module, &inputs);
+            if !how.is_fixed {
+                name_by_location(&mut inputs, source, interface);
+            }
             let is_fed = |part: &AttributePart| {
                 let name = &part.attribute.name;
                 [VERTEX_NUMBER, INSTANCE_NUMBER].contains(&name.as_str())

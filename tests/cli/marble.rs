@@ -14,3 +14,20 @@ fn a_derivative_of_what_is_no_plane_is_graded_as_it_is_drawn() {
     let report = written.graded(&[("abs(dFdx(height)) + abs(dFdy(height))", "fwidth(height)")]);
     assert_eq!((&report["verdict"], &report["cross_check"]["opinion"]), (&"correct".into(), &"agrees".into()));
 }
+
+#[test]
+fn an_attribute_of_another_name_is_known_by_its_location() {
+    let written = written();
+    let used = [("int(aTexCoords.y", "int(uv.y"), ("coords = aTexCoords", "coords = uv")];
+    let report = written.graded(
+        &[&[("in vec2 aTexCoords", "in vec4 uv"), used[0]][..], &[("coords = aTexCoords", "coords = uv.xy")]].concat(),
+    );
+    assert_eq!(
+        (&report["verdict"], &report["cross_check"]["opinion"]),
+        (&"correct".into(), &"agrees".into()),
+        "{report:#}"
+    );
+    // A name that nobody feeds, and no location by which it could be.
+    let report = written.graded(&[&[("layout(location = 2) in vec2 aTexCoords", "in vec2 uv")][..], &used].concat());
+    assert_eq!(report["verdict"], "wrong");
+}

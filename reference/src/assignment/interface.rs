@@ -2,7 +2,7 @@
 
 use crate::Value;
 use crate::feed::{Bounds, Feed, Stream};
-use crate::interpreter::{BlockPlace, ProgramVariable, Type};
+use crate::interpreter::{BlockPlace, Program, ProgramVariable, Type};
 use crate::scene::Moment;
 
 /// What the handed-in stage is given and what it writes, by name.
@@ -25,6 +25,19 @@ pub struct Input {
     pub kind: Type,
     /// Where its values come from.
     pub stream: Stream,
+    /// The location that the solution or the fixed stage gives it, by which the program feeds it then.
+    pub location: Option<u32>,
+}
+
+impl Input {
+    /// Which of these a vertex stage's input is: by its name, or by a location that both give where that name is nobody's: a program that
+    /// feeds locations does not see names.
+    pub fn fed<'a>(inputs: &'a [Self], program: &Program, own: &ProgramVariable) -> Option<&'a Self> {
+        let is_taken = |input: &Self| program.inputs().iter().any(|other| other.name == input.name);
+        let at_location = |input: &&Self| input.location.is_some() && input.location == own.location;
+        let named = inputs.iter().find(|input| input.name == own.name);
+        named.or_else(|| inputs.iter().find(at_location).filter(|input| !is_taken(input)))
+    }
 }
 
 /// A uniform, or a part of one.

@@ -1,6 +1,7 @@
 //! What the stages of a program are given at some probes.
 
 use super::{Place, TracedProgram};
+use crate::assignment::Input;
 use crate::equation::Reads;
 use crate::interpreter::{Interpolation, Prepared, Program, ProgramVariable, Scalar};
 use crate::pipeline::{Pipeline, Varying, columns};
@@ -104,7 +105,9 @@ pub(super) fn vertex_run<'p>(
     let corners = if is_single { 1 } else { 3 };
     let mut given: Vec<(&str, Vec<Vec<f64>>)> = Vec::new();
     for input in program.inputs() {
-        let place = assignment.interface.inputs.iter().position(|own| own.name == input.name);
+        let inputs = &assignment.interface.inputs;
+        let place =
+            Input::fed(inputs, program, input).and_then(|fed| inputs.iter().position(|own| own.name == fed.name));
         let columns = match place {
             Some(place) if is_single => columns(input, places.iter().map(|at| &at.probe.attributes[place])),
             Some(place) => {

@@ -49,6 +49,7 @@ pub fn interface() -> LinkedInterface {
     LinkedInterface {
         stage: Stage::Vertex,
         inputs: vec![variable("position", "vec4"), variable("nv", "vec4")],
+        attributes: Vec::new(),
         uniforms: vec![variable("mv", "mat4"), variable("mvp", "mat4")],
         outputs: vec![variable("colour", "vec4")],
         constants: ["lightPosition", "lightAmbient", "shine"].map(str::to_owned).to_vec(),

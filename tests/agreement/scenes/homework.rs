@@ -54,6 +54,7 @@ impl Homework {
         LinkedInterface {
             stage: Stage::Vertex,
             inputs: first.attributes.iter().map(variable).collect(),
+            attributes: Vec::new(),
             uniforms: first.uniforms.iter().map(variable).chain(self.textures.iter().map(sampler)).collect(),
             outputs: vec![Variable { name: "colour".into(), ty: "vec4".into() }],
             constants: Vec::new(),

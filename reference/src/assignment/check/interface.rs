@@ -195,6 +195,7 @@ impl InterfaceReader<'_> {
             );
             return Err(self.wrong(at, &place, message));
         }
-        Ok(Input { name: name.clone(), kind, stream })
+        let location = declared.and_then(|declared| declared.location);
+        Ok(Input { name: name.clone(), kind, stream, location })
     }
 }
