@@ -35,7 +35,7 @@ impl Device {
         let adapter = adapters.into_iter().find(|adapter| kind.matches(adapter.get_info().device_type));
         let adapter = adapter.ok_or_else(|| kind.missing())?;
         let info = adapter.get_info();
-        let wanted = wgpu::Features::SHADER_F64;
+        let wanted = wgpu::Features::SHADER_F64 | wgpu::Features::SHADER_EARLY_DEPTH_TEST;
         let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
             label: Some("ggrade"),
             required_features: wgpu::Features::VERTEX_WRITABLE_STORAGE | (adapter.features() & wanted),

@@ -94,6 +94,13 @@ const STAGES: &[(&str, End, &str, &str)] = &[
     ("discard-all", Runs, "", "discard;"),
     ("discard-all-behind-a-write", Runs, "", "colour = vec4(1.0); discard;"),
     (
+        "discard-behind-early-tests",
+        Runs,
+        "layout(early_fragment_tests) in;",
+        "if (uv.x < 0.5) discard; colour = vec4(1.0);",
+    ),
+    ("depth-behind-early-tests", Runs, "layout(early_fragment_tests) in;", "gl_FragDepth = uv.x; colour = vec4(1.0);"),
+    (
         "discard-at-random",
         Runs,
         "",
