@@ -53,6 +53,11 @@ const NAMES: &[HintCase] = &[
     ("float cosine = ", "float §sample = ", "word of the language", "キーワード"),
     ("float cosine = ", "float §gl_c = ", "`gl_`", "`gl_`"),
     ("float cosine", "float §v", "twice|line 22", "2 回|22 行目"),
+    ("in vec4 nv", "§flat in vec4 nv", "nothing is interpolated|fragment shader", "補間がない|フラグメントシェーダ"),
+    ("float cosine", "§continue;\n  float cosine", "only in a loop", "ループの中"),
+    ("float cosine", "§break;\n  float cosine", "a loop or a `switch`", "`switch`"),
+    ("float cosine", "struct P { float a, b; };\n  P p = §P(1.0);\n  float cosine", "each member", "メンバ"),
+    ("float cosine", "§sampler2D map;\n  float cosine", "A texture is no value", "値ではありません"),
 ];
 
 const SYNTAX: &[HintCase] = &[
