@@ -2,6 +2,8 @@
 
 use super::authoring::Written;
 
+const FRAGMENT: &str = "marble.frag";
+
 fn written() -> Written {
     Written::from(&["marble.vert", "marble.frag"])
 }
@@ -30,4 +32,27 @@ fn an_attribute_of_another_name_is_known_by_its_location() {
     // A name that nobody feeds, and no location by which it could be.
     let report = written.graded(&[&[("layout(location = 2) in vec2 aTexCoords", "in vec2 uv")][..], &used].concat());
     assert_eq!(report["verdict"], "wrong");
+}
+
+#[test]
+fn what_the_stages_declare_differently_is_said_with_its_line() {
+    let written = written();
+    let said = |changes: &[(&str, &str)], part: &str| {
+        let report = written.graded(changes);
+        let first = &report["diagnostics"][0];
+        assert_eq!((&report["verdict"], &first["file"]), (&"rejected".into(), &FRAGMENT.into()), "{report:#}");
+        assert!(first["message"].as_str().unwrap().contains(part), "{first:#}");
+        first["line"].as_u64()
+    };
+    assert_eq!(
+        said(&[("out vec3 towards[2]", "out vec3 towards[3]")], "`vec3 towards[3]` in the vertex shader"),
+        Some(3)
+    );
+    let placed = [
+        ("#version 330 core\nlayout", "#version 410 core\nlayout"),
+        ("#version 330 core\nin", "#version 410 core\nin"),
+        ("out vec2 coords", "layout(location = 5) out vec2 coords"),
+        ("in vec2 coords", "layout(location = 6) in vec2 coords"),
+    ];
+    assert_eq!(said(&placed, "location 5 in the vertex shader, and 6 here"), Some(5));
 }

@@ -24,7 +24,9 @@ pub fn explain(file: &HintContext<'_>, entry: &LogEntry<'_>) -> Diagnostic {
         members_differ(file, &entry.more.join(" "))
     } else if message.contains("must match") || message.contains("must be compatible") {
         let of_output = || output().and_then(|output| output_differs(file, output, message));
-        uniform_differs(file, &entry.more.join(" ")).or_else(of_output)
+        let more = entry.more.join(" ");
+        let of_location = || location_differs(file, &more).filter(|_| message.contains("location"));
+        uniform_differs(file, &more).or_else(of_location).or_else(of_output)
     } else if message.contains("Missing entry point") {
         Some(no_main(file))
     } else if message.contains("Recursion detected") {
@@ -160,7 +162,7 @@ fn members_differ(file: &HintContext<'_>, more: &str) -> Option<Diagnostic> {
     Some(at(file, own, text).hint(hint))
 }
 
-/// A uniform that both stages declare: `more` is the compiler's `vertex stage: " float a" fragment stage: " int a"`.
+/// A uniform that both stages declare, or what the one hands to the other: `more` is the compiler's `vertex stage: " float a" fragment stage: " int a"`.
 fn uniform_differs(file: &HintContext<'_>, more: &str) -> Option<Diagnostic> {
     let declared = |stage: &str| {
         let text = more.split_once(stage)?.1.trim_start_matches([' ', '"']).split('"').next()?.trim();
@@ -169,15 +171,40 @@ fn uniform_differs(file: &HintContext<'_>, more: &str) -> Option<Diagnostic> {
     };
     let [vertex, fragment] = [declared("vertex stage:")?, declared("fragment stage:")?];
     let (_, name) = source::words(fragment.split('[').next()?).last()?;
-    let is_it = |d: &&DeclaredName<'_>| d.global && d.is("uniform") && d.name == name;
-    let own = file.declarations.iter().find(is_it)?;
+    let is_it = |d: &&DeclaredName<'_>| d.global && (d.is("uniform") || d.is("in")) && d.name == name;
+    let own = file.declarations.iter().find(is_it).filter(|own| own.is("uniform") || vertex != fragment)?;
     let text = Text::new(
         format!("The two files declare `{name}` differently: `{vertex}` in the vertex shader, `{fragment}` here."),
         format!(
             "`{name}` の宣言が 2 つのファイルで異なっています。頂点シェーダでは `{vertex}`、ここでは `{fragment}` です。"
         ),
     );
-    let hint = Text::new("A uniform is one for both.", "uniform 変数は両方のシェーダに共通です。");
+    let hint = match own.is("in") {
+        false => Text::new("A uniform is one for both.", "uniform 変数は両方のシェーダに共通です。"),
+        true => Text::new(
+            "What the vertex shader hands over needs the same type in both files.",
+            "頂点シェーダから渡す変数は、両方のファイルで同じ型にしてください。",
+        ),
+    };
+    Some(at(file, own, text).hint(hint))
+}
+
+/// What has other locations in the two stages: `more` is the compiler's
+/// `vertex stage: a "layout( location=1) smooth out" fragment stage: a "layout( location=2) smooth in"`.
+fn location_differs(file: &HintContext<'_>, more: &str) -> Option<Diagnostic> {
+    let declared = |stage: &str| {
+        let (name, rest) = more.split_once(stage)?.1.trim_start().split_once(' ')?;
+        let number = rest.split_once("location=")?.1;
+        let end = number.find(|c: char| !c.is_ascii_digit()).unwrap_or(number.len());
+        Some((name, &number[..end]))
+    };
+    let [(_, vertex), (name, fragment)] = [declared("vertex stage:")?, declared("fragment stage:")?];
+    let own = file.declarations.iter().find(|d| d.global && d.is("in") && d.name == name)?;
+    let text = Text::new(
+        format!("`{name}` has location {vertex} in the vertex shader, and {fragment} here."),
+        format!("`{name}` の location は、頂点シェーダでは {vertex}、ここでは {fragment} です。"),
+    );
+    let hint = Text::new("Both need the same location.", "location は両方で同じにしてください。");
     Some(at(file, own, text).hint(hint))
 }
 
