@@ -182,7 +182,7 @@ pub(super) fn check(
             errors.push(wrong_type(source, "uniform", &expected, ty));
         } else if let root = &declared.path[..declared.path.find('[').unwrap_or(declared.path.len())]
             && !noted.contains(&root)
-            && !interface.uniforms.iter().any(|uniform| uniform.name.starts_with(root))
+            && !interface.uniforms.iter().any(|uniform| is_part_of(&uniform.name, root))
         {
             noted.push(root);
             notes.push(unset_uniform(source, root, interface));
@@ -207,7 +207,14 @@ pub(super) fn check(
             errors.push(wrong_type(source, "in", expected, &attribute.ty));
         }
     }
+    // Elements of an array are declared in one place, and are wrong together.
+    errors.dedup_by_key(|error| error.line.zip(error.column).ok_or_else(|| error.message.clone()));
     if errors.is_empty() { Ok(notes) } else { Err(TranslationRefusal::Rejected(errors)) }
+}
+
+/// Whether a path is that of a uniform, or of a part of it.
+fn is_part_of(path: &str, whole: &str) -> bool {
+    path.strip_prefix(whole).is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
 }
 
 /// How many components a type of whole numbers or truth values has; none of another type.

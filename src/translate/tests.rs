@@ -167,6 +167,20 @@ fn parts_of_uniforms_are_held_against_what_the_program_sets() {
     );
 }
 
+#[test]
+fn what_is_declared_with_another_name_or_type_is_told_once() {
+    let sun = "struct S { vec3 dir; };\nuniform S sun;";
+    let told = with_uniforms(&[("sun.direction", "vec3")], sun, "vc.xyz += sun.dir;").expect("it runs");
+    let messages: Vec<&str> = told.diagnostics.iter().map(|one| one.message.en.as_str()).collect();
+    assert!(messages.iter().any(|message| message.contains("never sets the uniform `sun.dir`")), "{messages:?}");
+    // Both elements of an array have the type that is declared once.
+    let lamps = "struct L { int far; };\nuniform L l[2];";
+    let set = [("l[0].far", "float"), ("l[1].far", "float")];
+    let refused = with_uniforms(&set, lamps, "vc.x += float(l[0].far + l[1].far);").map(|_| "accepted");
+    let Err(TranslationRefusal::Rejected(errors)) = refused else { panic!("it is refused") };
+    assert_eq!(errors.iter().map(|error| error.line).collect::<Vec<_>>(), [Some(5)]);
+}
+
 /// The program of a homework with this fixed vertex shader, or one of which both stages are handed in.
 fn program(vertex: Option<&str>) -> HomeworkProgram {
     let mut interface = interface();
