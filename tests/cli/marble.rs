@@ -35,6 +35,13 @@ fn an_attribute_of_another_name_is_known_by_its_location() {
 }
 
 #[test]
+fn a_case_that_runs_into_the_next_is_named() {
+    let report = written().graded(&[("palette[band % 3];\n    break;", "palette[band % 3];")]);
+    let first = report["mistakes"][0].as_str().unwrap();
+    assert!(first.starts_with("derived-falls-through-"), "{report:#}");
+}
+
+#[test]
 fn what_the_stages_declare_differently_is_said_with_its_line() {
     let written = written();
     let said = |changes: &[(&str, &str)], part: &str| {

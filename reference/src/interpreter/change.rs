@@ -42,6 +42,8 @@ pub enum Operator {
     DivisorLeftOut,
     /// A statement is left out.
     StatementLeftOut,
+    /// A case of a `switch` runs into the next.
+    FallsThrough,
     /// The sign is the other one.
     Sign,
     /// Another operator stands between two operands.
@@ -99,7 +101,7 @@ pub enum Operator {
 #[cfg(test)]
 impl Operator {
     /// All of them.
-    pub const ALL: [Self; 35] = [
+    pub const ALL: [Self; 36] = [
         Self::ClampLeftOut,
         Self::NormalizeLeftOut,
         Self::PowerLeftOut,
@@ -109,6 +111,7 @@ impl Operator {
         Self::FactorLeftOut,
         Self::DivisorLeftOut,
         Self::StatementLeftOut,
+        Self::FallsThrough,
         Self::Sign,
         Self::OtherOperator,
         Self::Exchanged,

@@ -45,6 +45,8 @@ enum PlacedSlip {
     Bound(usize, Change),
     /// The statement with this number is left out.
     Statement(usize, Option<Name>, ChangedPart),
+    /// In the `switch` that is the statement with this number, the one with that number in it, a `break`, is left out.
+    FallsThrough(usize, usize, ChangedPart),
     /// The condition of the branch that is the statement with this number always holds, or never.
     Branch(usize, bool, ChangedPart),
 }
@@ -54,6 +56,7 @@ impl PlacedSlip {
         match self {
             Self::Expression(_, _, change, _) | Self::Bound(_, change) => change.operator,
             Self::Statement(..) | Self::Branch(..) => Operator::StatementLeftOut,
+            Self::FallsThrough(..) => Operator::FallsThrough,
         }
     }
 }
@@ -71,7 +74,7 @@ pub fn program_slips(source: &str, stage: Stage, is_part: &dyn Fn(&str) -> bool)
 /// # Errors
 /// The program is none.
 pub fn program_without_parts(source: &str, stage: Stage) -> Result<Vec<ProgramSlip>, Refusal> {
-    slips_of(source, stage, &|_| true, &|slip| slip.operator() <= Operator::StatementLeftOut)
+    slips_of(source, stage, &|_| true, &|slip| slip.operator() <= Operator::FallsThrough)
 }
 
 fn slips_of(
@@ -93,7 +96,7 @@ fn slips_of(
             PlacedSlip::Expression(_, name, change, part) => (name.as_ref(), Some(change), Some(part)),
             PlacedSlip::Bound(_, change) => (None, Some(change), None),
             PlacedSlip::Statement(_, name, part) => (name.as_ref(), None, Some(part)),
-            PlacedSlip::Branch(_, _, part) => (None, None, Some(part)),
+            PlacedSlip::FallsThrough(_, _, part) | PlacedSlip::Branch(_, _, part) => (None, None, Some(part)),
         };
         Some(ProgramSlip {
             operator: slip.operator(),
@@ -122,6 +125,12 @@ fn found(items: &[Item], is_part: &dyn Fn(&str) -> bool) -> Vec<PlacedSlip> {
             statement: &mut |own, _| {
                 if let Some(name) = left_out(own) {
                     of_statements.push(PlacedSlip::Statement(statement, name, part_of(own)));
+                }
+                if let StatementKind::Switch(_, all) = &own.kind {
+                    // The last one ends nothing that would go on.
+                    let before_last = all.iter().take(all.len().saturating_sub(1)).enumerate();
+                    let breaks = before_last.filter(|(_, one)| matches!(one.kind, StatementKind::Break));
+                    of_statements.extend(breaks.map(|(at, one)| PlacedSlip::FallsThrough(statement, at, part_of(one))));
                 }
                 if let StatementKind::If(condition, _, no) = &own.kind {
                     let part = |holds: bool| ChangedPart {
@@ -176,6 +185,7 @@ fn part_of(statement: &Statement) -> ChangedPart {
     let own = match &statement.kind {
         StatementKind::Expression(expression) => format!("{};", written(expression)),
         StatementKind::If(condition, ..) => format!("if ({}) …", written(condition)),
+        StatementKind::Break => "break;".to_owned(),
         _ => "discard;".to_owned(),
     };
     ChangedPart { lines: (statement.line, tree::last_line(statement)), own, instead: None }
@@ -208,6 +218,11 @@ fn with(items: &[Item], slip: &PlacedSlip, is_part: &dyn Fn(&str) -> bool) -> Ve
             statement: &mut |own, _| {
                 match slip {
                     PlacedSlip::Statement(at, ..) if *at == statement => own.kind = StatementKind::Empty,
+                    PlacedSlip::FallsThrough(at, inner, _) if *at == statement => {
+                        if let StatementKind::Switch(_, all) = &mut own.kind {
+                            all[*inner].kind = StatementKind::Empty;
+                        }
+                    }
                     PlacedSlip::Branch(at, holds, _) if *at == statement => {
                         if let StatementKind::If(condition, ..) = &mut own.kind {
                             condition.kind = ExpressionKind::Bool(*holds);
