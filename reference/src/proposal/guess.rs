@@ -223,6 +223,7 @@ fn vector(name: &NameWords, count: usize, nth: usize, is_downward: bool) -> Gues
         return Guess { value, within: Some((least.to_vec(), greatest.to_vec())), what };
     }
     if name.is_direction() && !name.is_colour() {
+        let is_downward = is_downward || name.has(&["axis"]); // A spot hangs above what it lights.
         let sign = if is_downward { -1.0 } else { 1.0 };
         let value = DIRECTIONS[nth % DIRECTIONS.len()].map(|number| number * sign);
         let (least, greatest) =
@@ -244,7 +245,8 @@ fn vector(name: &NameWords, count: usize, nth: usize, is_downward: bool) -> Gues
             (filled([end; 3], 1.0), filled([end - 0.5; 3], 1.0), filled([end + 0.5; 3], 1.0));
         return Guess { value, within: Some((least, greatest)), what: ("corner of a box", "箱の角") };
     }
-    if let Some((_, value, (least, greatest), what)) = row(name).filter(|_| !name.is_colour()) {
+    let known = row(name).filter(|guess| !name.is_colour() && guess.3.0 != "exponent"); // The power of a light is a colour.
+    if let Some((_, value, (least, greatest), what)) = known {
         return Guess { value: vec![*value; count], within: Some((vec![*least], vec![*greatest])), what: *what };
     }
     if name.has(&["ambient", "lamb", "kamb"]) {
@@ -292,5 +294,7 @@ mod tests {
         assert_eq!([value("radius", 0, true), value("lightRadius", 0, false)], [6.0, 6.0]);
         assert_eq!([value("radius", 0, false), value("fresnelPower", 0, false)], [1.0, 4.0]);
         assert_eq!([value("shininess", 0, false), value("noiseScale", 0, false)], [32.0, 1.7]);
+        let vector = |name: &str| guess(&NameWords::of(name), &Type::vector(3), Context::default()).value;
+        assert!(vector("axis")[1] < 0.0 && vector("power").iter().all(|share| *share <= 1.0));
     }
 }
