@@ -46,7 +46,7 @@ pub fn check_program(
             && positions.all(|(ours, theirs)| is_near(ours / scale, (f64::from(theirs) / scale) as f32));
         let relation = match (agrees, shown.is_steady) {
             (true, _) => Relation::Agrees,
-            (false, _) if !shown.colour.is_finite() => Relation::Undefined,
+            (false, _) if !shown.colour.is_finite() || !shown.position.is_finite() => Relation::Undefined,
             (false, false) => Relation::Unsettled,
             (false, true) => Relation::Differs,
         };
