@@ -13,7 +13,7 @@ pub use handed_over::ToldByOutputs;
 use crate::equation::Reads;
 use crate::interpreter::{Interpolation, Program, ProgramVariable, Scalar, Stage};
 use crate::pipeline::{Pipeline, Varying};
-use crate::probes::Probe;
+use crate::probes::{Probe, ProbeSet};
 use crate::{Assignment, Text, Value};
 use glam::{DVec3, DVec4};
 use std::sync::Arc;
@@ -34,6 +34,13 @@ pub struct Place<'a> {
     pub probe: &'a Probe,
     /// Its uniforms.
     pub uniforms: &'a [Value],
+}
+
+impl<'a> Place<'a> {
+    /// All probes of a set with their uniforms.
+    pub fn all(probes: &'a ProbeSet) -> Vec<Self> {
+        probes.iter().map(|probe| Self { probe, uniforms: probes.uniforms(probe) }).collect()
+    }
 }
 
 /// What is seen of a program at each probe.

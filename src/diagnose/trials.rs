@@ -6,7 +6,6 @@ use crate::compare::{POSITION_TOLERANCE, position_difference};
 use glam::DVec3;
 use reference::Assignment;
 use reference::interpreter::trace::{Trace, ValueChange};
-use reference::probes::ProbeSet;
 use reference::traced::{Bench, Place, Seen, TracedProgram};
 
 /// How many wrong and how many right samples are looked at.
@@ -107,11 +106,6 @@ pub(super) fn chosen(evidence: &Evidence<'_>) -> Vec<usize> {
 pub(super) fn place<'e>(evidence: &Evidence<'e>, at: usize) -> Place<'e> {
     let probe = &evidence.probes.probes[at];
     Place { probe, uniforms: evidence.probes.uniforms(probe) }
-}
-
-/// All probes of a set with their uniforms.
-pub(super) fn places_of(probes: &ProbeSet) -> Vec<Place<'_>> {
-    probes.iter().map(|probe| Place { probe, uniforms: probes.uniforms(probe) }).collect()
 }
 
 /// Whether the driver computed these colours at the chosen probes: what it computed is what is judged. What is no number may become

@@ -72,12 +72,11 @@ fn traces(
     probes: &ProbeSet,
     in_quads: bool,
 ) -> Option<[Option<Trace>; 2]> {
-    let places: Vec<Place<'_>> = probes.iter().map(|probe| Place { probe, uniforms: probes.uniforms(probe) }).collect();
-    let mut bench = Bench::new(assignment, program, &places, in_quads, FUEL)?.lenient();
+    let mut bench = Bench::new(assignment, program, &Place::all(probes), in_quads, FUEL)?.lenient();
     bench.trace(&Default::default()).map(|(_, traces)| traces)
 }
 
-/// What the right answer gives names to, in the order in which it is computed; none that others equal by chance.
+/// What the right answer gives names to; none that others equal by chance.
 fn named(solution: &TracedProgram, traces: &[Option<Trace>; 2]) -> Vec<NamedValue> {
     let mut named = Vec::new();
     for stage in [Stage::Vertex, Stage::Fragment] {

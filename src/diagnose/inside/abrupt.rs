@@ -1,11 +1,11 @@
 //! Where an answer decides between two things that it should go over gradually.
 
-use super::variable;
 use super::walk::{made_of, roots};
+use super::{Place, variable};
 use crate::diagnose::Evidence;
 use crate::diagnose::columns::is_number;
 use crate::diagnose::locate::{Located, MistakeOrigin};
-use crate::diagnose::trials::{FUEL_OF_TRACE, StageChanges, places_of};
+use crate::diagnose::trials::{FUEL_OF_TRACE, StageChanges};
 use reference::interpreter::Stage;
 use reference::interpreter::trace::{Event, What};
 use reference::probes::EdgeDefect;
@@ -14,7 +14,7 @@ use reference::traced::Bench;
 /// The last value on the way of the colour that is one of two at every place across edges, and changes there at once.
 pub(in crate::diagnose) fn decision(evidence: &Evidence<'_>) -> Option<Located> {
     let ((crossings, _), theirs) = (evidence.across?, evidence.traced?);
-    let places = places_of(&crossings.probes);
+    let places = Place::all(&crossings.probes);
     let in_quads = theirs.needs_quads(evidence.assignment);
     let mut bench = Bench::new(evidence.assignment, theirs, &places, in_quads, FUEL_OF_TRACE)?;
     let (_, mut traces) = bench.trace(&StageChanges::default())?;

@@ -19,7 +19,7 @@ use super::{Finding, Place, Seen, Stage, TracedProgram};
 use crate::compare::{COLOUR_TOLERANCE, POSITION_TOLERANCE};
 use crate::diagnose::columns::is_colour;
 use crate::diagnose::locate::Located;
-use crate::diagnose::trials::{FIRST, FUEL_OF_TRACE, StageChanges, places_of};
+use crate::diagnose::trials::{FIRST, FUEL_OF_TRACE, StageChanges};
 use crate::translate;
 use glam::DVec3;
 use reference::interpreter::{Ingredients, ProgramRepair, Repairable};
@@ -268,7 +268,7 @@ impl Search<'_, '_> {
     fn holds_everywhere(&self, program: &TracedProgram) -> bool {
         let all = [self.evidence.probes, self.evidence.fresh.probes];
         let [judging, fresh] = all.map(|probes| {
-            let places = places_of(probes);
+            let places = Place::all(probes);
             let seen = self.shown(program, &places, FUEL_OF_TRACE)?;
             let is_right = |(place, (colour, position)): (&Place<'_>, (&DVec3, &glam::DVec4))| {
                 let largest = place.probe.position.abs().max_element().max(f64::MIN_POSITIVE);

@@ -9,8 +9,8 @@ use crate::diagnose::Evidence;
 use crate::diagnose::cause::{is_there, leaves_little};
 use crate::diagnose::inside::chain::Link;
 use crate::diagnose::inside::search::{Search, is_right};
-use crate::diagnose::inside::{TracedProgram, find};
-use crate::diagnose::trials::{StageChanges, places_of};
+use crate::diagnose::inside::{Place, TracedProgram, find};
+use crate::diagnose::trials::StageChanges;
 use crate::render::Sample;
 use glam::DVec3;
 use reference::fit::{Alternatives, programs_showing};
@@ -57,7 +57,7 @@ impl Search<'_, '_> {
     /// mistake stands.
     fn written_beside(&self, attempt: &RepairAttempt, next: Option<&Link>) -> Option<Repaired> {
         let Evidence { assignment, probes, .. } = *self.evidence;
-        let seen = self.shown(&attempt.program, &places_of(probes), FUEL_OF_TRACE)?;
+        let seen = self.shown(&attempt.program, &Place::all(probes), FUEL_OF_TRACE)?;
         let sample = |(colour, position): (&DVec3, &glam::DVec4)| Sample {
             position: position.as_vec4().to_array(),
             colour: colour.extend(1.0).as_vec4().to_array(),
