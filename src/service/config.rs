@@ -1,12 +1,13 @@
 //! The service's configuration: flags before environment before file.
 
+mod check;
+
 use super::sign_in::Provider;
 use super::store::Location;
 use crate::cli::{LogFormat, ProcessRole, ServeArguments};
 use crate::fault::Fault;
 use crate::language::Text;
 use crate::sandbox::Policy;
-use axum::http::HeaderName;
 use figment::Figment;
 use figment::providers::{Env, Format, Serialized, Toml};
 use serde::{Deserialize, Serialize};
@@ -142,84 +143,6 @@ impl Config {
         Ok(config)
     }
 
-    fn check(&self) -> Result<(), Fault> {
-        let wrong = |name: &str, what: &str, ja: &str| {
-            Err(Fault::new(Text::new(format!("the configuration: {name} {what}"), format!("設定の {name} {ja}"))))
-        };
-        let times = [
-            ("deadline", self.deadline),
-            ("wait", self.wait),
-            ("header_timeout", self.limits.header_timeout),
-            ("request_timeout", self.limits.request_timeout),
-            ("write_timeout", self.limits.write_timeout),
-            ("drain_timeout", self.limits.drain_timeout),
-            ("lease", self.limits.lease),
-        ];
-        for (name, value) in times {
-            if !(value > 0.0 && value <= 86_400.0) {
-                return wrong(name, "takes seconds above 0", "は 0 より大きい秒数で指定してください");
-            }
-        }
-        let counts = [
-            ("workers", self.workers),
-            ("queue", self.queue),
-            ("connections", self.limits.connections),
-            ("connections_per_address", self.limits.connections_per_address),
-            ("uploads_per_student", self.uploads_per_student as usize),
-            ("uploads_per_address", self.uploads_per_address as usize),
-        ];
-        for (name, value) in counts {
-            if value == 0 {
-                return wrong(name, "takes a number above 0", "は 1 以上で指定してください");
-            }
-        }
-        let secrets = [("teacher_token", &self.teacher_token), ("metrics_token", &self.metrics_token)];
-        let secrets = secrets.into_iter().filter_map(|(name, secret)| Some((name, secret.as_ref()?)));
-        for (name, secret) in secrets.chain(self.homework_tokens.values().map(|secret| ("homework_tokens", secret))) {
-            if secret.len() < SHORTEST_SECRET {
-                return wrong(name, "takes at least 16 characters", "は 16 文字以上にしてください");
-            }
-        }
-        for (place, provider) in self.sign_in.iter().enumerate() {
-            let is_second = self.sign_in[..place].iter().any(|other| other.id == provider.id);
-            if let Some(field) = provider.check().err().or(is_second.then_some("id")) {
-                return wrong(
-                    &format!("sign_in.{field}"),
-                    "cannot be used: see docs/service.md, “Signing in by OpenID Connect”",
-                    "が正しくありません。docs/service.md の「Signing in by OpenID Connect」を参照してください",
-                );
-            }
-        }
-        self.location()?;
-        super::limits::Proxies::parse("trusted_proxies", &self.trusted_proxies)?;
-        super::limits::Proxies::parse("identity_proxies", &self.identity_proxies)?;
-        match &self.identity_header {
-            Some(header) if HeaderName::from_bytes(header.as_bytes()).is_err() => {
-                return wrong(
-                    "identity_header",
-                    "takes the name of an HTTP header",
-                    "には HTTP ヘッダーの名前を指定してください",
-                );
-            }
-            Some(_) if self.identity_proxies.is_empty() => {
-                return wrong(
-                    "identity_header",
-                    "needs identity_proxies: the addresses of the proxies that send it",
-                    "を使うには、それを送るプロキシのアドレスを identity_proxies に指定してください",
-                );
-            }
-            _ => {}
-        }
-        if self.role != ProcessRole::All && matches!(self.location()?, Location::File(_)) {
-            return wrong(
-                "role",
-                "divides the work among processes, which takes PostgreSQL: an SQLite file has one process",
-                "で処理を分けるには PostgreSQL が必要です (SQLite のファイルを使えるのは 1 プロセスだけです)",
-            );
-        }
-        Ok(())
-    }
-
     /// Where the database is.
     pub fn location(&self) -> Result<Location, Fault> {
         self.database.parse().map_err(|error: String| {
@@ -281,6 +204,3 @@ fn environment() -> Figment {
     }
     figment
 }
-
-/// A secret shorter than this can be guessed.
-const SHORTEST_SECRET: usize = 16;

@@ -39,23 +39,16 @@ pub fn router() -> Router<Service> {
     Router::new().route("/lti/jwks.json", get(keys::published))
 }
 
-/// Where platforms find this service, or a course of it.
-pub fn address(service: &Service) -> String {
-    let own = || format!("http://{}", service.config.listen);
-    let host = service.config.public_url.clone().unwrap_or_else(own);
-    format!("{}{}", host.trim_end_matches('/'), service.root())
-}
-
-/// The same, where it is known by which address others reach it.
-pub fn public_address(service: &Service) -> Result<String, Problem> {
-    if service.config.public_url.is_none() {
-        return Err(Problem::unprocessable(
-            "The service does not know by which address platforms reach it. Start it with --public-url (public_url in the \
+/// Where others reach this service, or a course of it. Without a configured address nothing is sent that names one.
+pub fn address(service: &Service) -> Result<String, Problem> {
+    let host = service.config.public_url.as_deref().ok_or_else(|| {
+        Problem::unprocessable(
+            "The service does not know by which address others reach it. Start it with --public-url (public_url in the \
              configuration) first.",
             "このサービスの公開アドレスが設定されていません。先に --public-url（設定ファイルでは public_url）を指定して起動してください。",
-        ));
-    }
-    Ok(address(service))
+        )
+    })?;
+    Ok(format!("{}{}", host.trim_end_matches('/'), service.root()))
 }
 
 /// A refusal of what a platform sent, which says what is wrong with it.

@@ -48,6 +48,11 @@ pub async fn start(mut config: Config, assignments: Vec<Arc<Assignment>>) -> Res
     if one_time_token.is_some() {
         config.teacher_token.clone_from(&one_time_token);
     }
+    if config.public_url.is_none() && !config.trusted_proxies.is_empty() {
+        tracing::warn!(
+            "behind a proxy and without public_url: cookies are not Secure, and links begin with the address by which each page is asked for"
+        );
+    }
     let (listener, address) = listen(config.listen).await?;
     let served = folders::served(&store, &assignments).await.map_err(|error| database(&error))?;
     let pool = pool(&config, &served).await?;

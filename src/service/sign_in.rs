@@ -37,8 +37,8 @@ pub fn router() -> Router<Service> {
 }
 
 /// Where issuers send browsers back to.
-fn address_back(service: &Service) -> String {
-    format!("{}/signed-in", lti::address(service))
+fn address_back(service: &Service) -> Result<String, Problem> {
+    Ok(format!("{}/signed-in", lti::address(service)?))
 }
 
 fn refused(en: impl Into<String>, ja: impl Into<String>) -> Problem {
@@ -67,12 +67,13 @@ async fn begin(
     let homework = service.homework(&wish.homework).map(|state| state.assignment.id.clone());
     let begun = SignIn { provider: id, nonce: nonce.clone(), verifier, homework };
     service.store.begin_sign_in(&token_hash(&state), &begun, now, now + millis(PATIENCE)).await?;
+    let back = address_back(&service)?;
     let mut next = Url::parse(&found.authorization_endpoint).map_err(|error| Problem::internal(&error))?;
     next.query_pairs_mut().extend_pairs([
         ("response_type", "code"),
         ("scope", "openid profile email"),
         ("client_id", &provider.client_id),
-        ("redirect_uri", &address_back(&service)),
+        ("redirect_uri", &back),
         ("state", &state),
         ("nonce", &nonce),
         ("code_challenge", &challenge),

@@ -276,4 +276,12 @@ async fn no_address_is_told_by_which_nobody_reaches_the_service(database: Databa
     let plain = "wish=add&issuer=x&client_id=x&auth_url=http%3A%2F%2Fmoodle.example&token_url=x&keys_url=x";
     let refused = form(&bench, "/teacher/platforms?lang=ja", plain).await;
     assert_eq!(refused.all("#wrong"), ["http://moodle.example は https のアドレスではありません。"]);
+    // A platform that was known before is not told of an address that whoever asks made up.
+    let known =
+        plain.replace("http%3A%2F%2Fmoodle", "https%3A%2F%2Fmoodle").replace("=x&", "=https%3A%2F%2Fx.example&");
+    let known = known.replace("keys_url=x", "keys_url=https%3A%2F%2Fx.example");
+    assert_eq!(form(&bench, "/teacher/platforms", &known).await.status, StatusCode::SEE_OTHER);
+    let launch = bench.get(&format!("/lti/login?iss={}&login_hint=1", encoded("https://x.example"))).await;
+    assert_eq!(launch.status, StatusCode::UNPROCESSABLE_ENTITY);
+    assert!(launch.header("location").is_empty() && launch.text().contains("--public-url"), "{}", launch.text());
 }

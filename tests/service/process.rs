@@ -20,9 +20,14 @@ pub struct Server {
 
 /// The command line of a server on `database`; every limit is out of the way.
 pub fn command(database: &Database) -> Command {
+    command_at(database, "127.0.0.1:0")
+}
+
+/// The same at an address.
+pub fn command_at(database: &Database, listen: &str) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_ggrade"));
     command
-        .args(["serve", "--listen", "127.0.0.1:0", "--database", &database.location, "--workers", "1"])
+        .args(["serve", "--listen", listen, "--database", &database.location, "--workers", "1"])
         .args(["--deadline", "20", "--queue", "500"])
         .args(["--uploads-per-student", "100000", "--uploads-per-address", "100000"])
         .args(["--teacher-token", crate::bench::TEACHER])

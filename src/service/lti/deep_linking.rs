@@ -42,13 +42,14 @@ pub(super) async fn offer(
         refused("The platform does not say where the choice goes.", "選択結果の送信先が示されていません。")
     })?;
     let action = checked(&wanted.deep_link_return_url).map_err(|why| refused(why.en, why.ja))?;
+    let own = address(service)?;
     let (mut titles, mut items) = (Vec::new(), Vec::new());
     for state in service.homeworks() {
         let title = frame.language.of(&state.assignment.title).to_owned();
         items.push(json!({
             "type": "ltiResourceLink",
             "title": title,
-            "url": format!("{}{}", address(service), state.place()),
+            "url": format!("{own}{}", state.place()),
             "custom": { HOMEWORK: state.assignment.id },
             "lineItem": { "scoreMaximum": 100, "label": title, "resourceId": state.assignment.id },
         }));

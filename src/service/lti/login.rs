@@ -95,6 +95,7 @@ async fn begin(service: &Service, headers: &HeaderMap, frame: PageFrame, coming:
     let now = service.clock.now();
     let launch = Launch { platform_id: platform.id.clone(), nonce: nonce.clone(), begun_by };
     service.store.begin_launch(&token_hash(&state), &launch, now, now + millis(LAUNCH)).await?;
+    let back = format!("{}/lti/launch", address(service)?);
     let mut next = Url::parse(&platform.auth_url).map_err(|error| Problem::internal(&error))?;
     next.query_pairs_mut().extend_pairs([
         ("scope", "openid"),
@@ -102,7 +103,7 @@ async fn begin(service: &Service, headers: &HeaderMap, frame: PageFrame, coming:
         ("response_mode", "form_post"),
         ("prompt", "none"),
         ("client_id", &platform.client_id),
-        ("redirect_uri", &format!("{}/lti/launch", address(service))),
+        ("redirect_uri", &back),
         ("login_hint", &coming.login_hint),
         ("state", &state),
         ("nonce", &nonce),

@@ -6,7 +6,7 @@ use super::super::errors::Problem;
 use super::super::identity::{new_id, new_token, token_hash};
 use super::super::store::Platform;
 use super::platform::checked;
-use super::{address, memberships, public_address, refused, scores};
+use super::{address, memberships, refused, scores};
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 use std::time::Duration;
@@ -37,7 +37,7 @@ pub struct RegistrationQuery {
 
 /// A new link. It works once, for a day. Without a public address a platform would not find this service.
 pub async fn new_link(service: &Service) -> Result<String, Problem> {
-    let address = public_address(service)?;
+    let address = address(service)?;
     let secret = new_token()[..32].to_owned();
     let kept = Kept { hash: token_hash(&secret), until: service.clock.now() + millis(HOLDS) };
     let json = serde_json::to_string(&kept).map_err(|error| Problem::internal(&error))?;
@@ -73,7 +73,7 @@ pub async fn register(service: &Service, secret: &str, asked: &RegistrationQuery
         return Err(failed(format!("the configuration is not of its issuer, {issuer}")));
     }
     let endpoint = text("registration_endpoint")?;
-    let answer = service.lti.register(&endpoint, asked.registration_token.as_deref(), &request(service)).await;
+    let answer = service.lti.register(&endpoint, asked.registration_token.as_deref(), &request(service)?).await;
     let answer = answer.map_err(failed)?;
     let client_id = answer["client_id"].as_str().ok_or_else(|| failed("it gave no client_id".to_owned()))?.to_owned();
     let family = open_id[PLATFORM]["product_family_code"].as_str().unwrap_or("LTI");
@@ -110,13 +110,13 @@ pub async fn keep(service: &Service, platform: Platform, deployment: Option<&str
 }
 
 /// What this service asks to be registered with.
-fn request(service: &Service) -> Value {
-    let own = address(service);
+fn request(service: &Service) -> Result<Value, Problem> {
+    let own = address(service)?;
     let domain = own.split("://").nth(1).unwrap_or_default().split('/').next().unwrap_or_default();
     // Moodle looks a link's tool up by its domain without this.
     let domain = domain.strip_prefix("www.").unwrap_or(domain);
     let scopes = [scores::SCOPE, memberships::SCOPE].join(" ");
-    json!({
+    Ok(json!({
         "application_type": "web",
         "response_types": ["id_token"],
         "grant_types": ["implicit", "client_credentials"],
@@ -136,5 +136,5 @@ fn request(service: &Service) -> Value {
                 { "type": "LtiDeepLinkingRequest", "target_link_uri": format!("{own}/"), "label": "ggrade" },
             ],
         },
-    })
+    }))
 }

@@ -84,7 +84,9 @@ async fn send(service: &Service, due: &DueScore, at: Millis) -> Result<(), Failu
     let stored = service.store.stored(&due.submission_id).await.map_err(|error| failed(&error))?;
     let report = stored.and_then(|stored| stored.report).ok_or_else(|| "the report is gone".to_owned())?;
     let language = service.store.course().await.map_err(|error| failed(&error))?.language;
-    let body = body(service, due, &report, language, at);
+    let page = address(service).map_err(|problem| problem.detail.en)?;
+    let page = format!("{page}/r/{}", due.submission_id);
+    let body = body(due, &report, language, &page, at);
     let address = scores_of(&due.line_item)?;
     let kind = "application/vnd.ims.lis.v1.score+json";
     Connections::call(service, &platform, SCOPE, (Method::POST, &address, kind), Some(&body)).await?;
@@ -99,13 +101,12 @@ fn scores_of(line_item: &str) -> Result<String, Failure> {
     Ok(url.to_string())
 }
 
-fn body(service: &Service, due: &DueScore, report: &Report, language: Language, at: Millis) -> Value {
-    let page = format!("{}/r/{}", address(service), due.submission_id);
+fn body(due: &DueScore, report: &Report, language: Language, page: &str, at: Millis) -> Value {
     json!({
         "userId": due.subject,
         "scoreGiven": report.total(),
         "scoreMaximum": report.max_score,
-        "comment": comment(report, language, &page),
+        "comment": comment(report, language, page),
         "timestamp": jiff::Timestamp::from_millisecond(at).map(|at| format!("{at:.3}")).unwrap_or_default(),
         "activityProgress": "Submitted",
         "gradingProgress": "FullyGraded",

@@ -148,7 +148,7 @@ impl Provider {
             ("code_verifier", &begun.verifier),
             ("client_id", &self.client_id),
         ];
-        let back = address_back(service);
+        let back = address_back(service)?;
         form.push(("redirect_uri", &back));
         let methods = &found.token_endpoint_auth_methods_supported;
         let has = |method: &str| methods.iter().any(|known| known == method);

@@ -118,7 +118,7 @@ async fn view(
             problem: said.problem,
             notice: said.notice,
             here,
-            own: lti::public_address(service).map_err(|problem| plainly(&problem, &frame)),
+            own: lti::address(service).map_err(|problem| plainly(&problem, &frame)),
             typed: said.typed,
             frame,
         }
