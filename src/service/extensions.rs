@@ -11,24 +11,36 @@ use axum::http::StatusCode;
 /// Longest reason, in characters.
 const LONGEST_REASON: usize = 500;
 
-/// Whose deadline is meant: a group of the roster by its name, or a student by their number.
+/// Whose deadline is meant: a group of the roster by its name, or a student by their number. A name that is both is refused, so that
+/// nobody gets what somebody else was meant to get.
 pub async fn beneficiary(state: &State, named: &str) -> Result<Beneficiary, Problem> {
     let named = named.trim();
-    if state.store.groups().await?.iter().any(|group| group == named) {
-        return Ok(Beneficiary::Group(named.to_owned()));
-    }
     let student = match normal_number(named) {
         Some(number) => state.store.student_by_number(&number).await?,
         None => None,
     };
-    student.map(|student| Beneficiary::Student(student.id)).ok_or_else(|| {
-        Problem::new(
+    let is_group = state.store.groups().await?.iter().any(|group| group == named);
+    match (student, is_group) {
+        (Some(student), false) => Ok(Beneficiary::Student(student.id)),
+        (None, true) => Ok(Beneficiary::Group(named.to_owned())),
+        (Some(_), true) => Err(Problem::new(
+            StatusCode::UNPROCESSABLE_ENTITY,
+            "ambiguous",
+            format!(
+                "`{named}` is a group and a student number. Set the student's deadline on their page of the class; for the group, give it \
+                 another name in the roster first."
+            ),
+            format!(
+                "「{named}」はグループ名でもあり、学籍番号でもあります。学生の締切はクラスの学生のページで設定してください。グループの場合は、先に名簿のグループ名を変更してください。"
+            ),
+        )),
+        (None, false) => Err(Problem::new(
             StatusCode::UNPROCESSABLE_ENTITY,
             "nobody",
             format!("There is no group and no student `{named}`. Groups are those of the roster's column “Group”."),
             format!("「{named}」というグループも学籍番号もありません。グループは名簿の「グループ」列の値です。"),
-        )
-    })
+        )),
+    }
 }
 
 /// Gives somebody a deadline of their own, or takes it away. Returns the reason as it is kept.

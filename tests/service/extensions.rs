@@ -12,7 +12,7 @@ use ggrade::service::identity::personal_code;
 use std::sync::Arc;
 use std::time::Duration;
 
-on_both!(a_student_has_a_deadline_of_their_own);
+on_both!(a_student_has_a_deadline_of_their_own, a_name_of_a_group_and_of_a_student_is_nobodys);
 
 /// 2023-11-15 07:13:20 in Tokyo.
 const NOW: i64 = 1_700_000_000_000;
@@ -82,5 +82,24 @@ async fn a_student_has_a_deadline_of_their_own(database: Database) {
     let own: Vec<&String> = log.iter().filter(|row| row.contains("own deadline")).collect();
     let has = |text: &str| own.iter().any(|row| row.contains("S1") && row.contains(text));
     assert!(own.len() == 3 && has("– 病気") && has("2023-11-15T23:00") && has("2023-11-15T10:00"), "{log:?}");
+    bench.finish().await;
+}
+
+async fn a_name_of_a_group_and_of_a_student_is_nobodys(database: Database) {
+    let bench = Bench::with(database, config(), Arc::new(Fake(|| Ok(()))), Clock::fixed(NOW)).await;
+    file(&bench, "/teacher/roster", "roster", "r.csv", b"number,name,group\nS1,A,S2\nS2,B,Tue\n").await;
+    let rules = "closes=2023-11-15T08%3A00&hints=full&audience=open";
+    assert_eq!(form(&bench, "/teacher/settings", rules).await.status, StatusCode::SEE_OTHER);
+    let set = async |whose: &str| {
+        let body = serde_json::json!({ "whose": whose, "due_at": "2023-11-15T12:00:00+09:00" }).to_string();
+        bench.send(request("PUT", "/api/v1/extensions", "application/json", body)).await
+    };
+    assert_eq!(set("S2").await.problem(), "ambiguous");
+    let refused = form(&bench, "/teacher/extensions", "whose=S2&closes=2023-11-15T12%3A00&reason=").await;
+    assert_eq!(refused.status, StatusCode::UNPROCESSABLE_ENTITY);
+    assert!(refused.all("[role=alert]")[0].contains("S2 is a group and a student number"), "{}", refused.text());
+    for whose in ["S1", "Tue"] {
+        assert_eq!(set(whose).await.status, StatusCode::NO_CONTENT, "{whose}");
+    }
     bench.finish().await;
 }
