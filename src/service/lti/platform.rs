@@ -1,7 +1,7 @@
 //! Asking a platform: its keys, a token for its services, and these.
 
 use super::super::Service;
-use super::super::clients::Clients;
+use super::super::clients::{Clients, causes};
 use super::super::identity::new_id;
 use super::super::store::Platform;
 use super::keys::{issued_at, sign};
@@ -141,7 +141,7 @@ impl Connections {
             Some(body) => request.header("content-type", kind).body(body.to_string()),
             None => request.header("accept", kind),
         };
-        let response = request.send().await.map_err(|error| format!("{address}: {error}"))?;
+        let response = request.send().await.map_err(|error| format!("{address}: {}", causes(&error)))?;
         if response.status() == StatusCode::UNAUTHORIZED {
             lock(&connections.tokens).remove(&(platform.id.clone(), scope.to_owned()));
         }
@@ -192,7 +192,7 @@ fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
 }
 
 async fn answered(address: &str, request: reqwest::RequestBuilder) -> Result<Response, Failure> {
-    let response = request.send().await.map_err(|error| format!("{address}: {error}"))?;
+    let response = request.send().await.map_err(|error| format!("{address}: {}", causes(&error)))?;
     succeeded(address, response).await
 }
 

@@ -12,7 +12,11 @@ use ggrade::service::clock::Clock;
 use ggrade::service::lti::scores::send_due;
 use serde_json::{Value, json};
 
-on_both!(nobody_comes_in_from_a_course_that_nobody_connected, a_platforms_course_leads_to_its_course_here,);
+on_both!(
+    nobody_comes_in_from_a_course_that_nobody_connected,
+    a_platforms_course_leads_to_its_course_here,
+    why_a_platform_is_not_reached_is_said,
+);
 
 /// A launch from another course of the platform.
 async fn launch_from(bench: &Bench, platform: &Platform, (subject, role): (&str, &str), context: Value) -> Reply {
@@ -110,5 +114,16 @@ async fn a_platforms_course_leads_to_its_course_here(database: Database) {
     assert_eq!(launch(&bench, &platform, "s1", "Learner").await.header("location"), "/a/ggsample06");
     assert!(course.store.links().await.expect("links").is_empty());
     drop(course);
+    bench.finish().await;
+}
+
+async fn why_a_platform_is_not_reached_is_said(database: Database) {
+    let (bench, _platform) = bench(database, Clock::system()).await;
+    let page = form(&bench, "/teacher/platforms", "wish=link").await;
+    let link = page.all(".link code")[0].replace("http://ggrade.example", "");
+    let nobody = encoded("http://127.0.0.1:1/openid-configuration");
+    let refused = get(&bench, &format!("{link}?openid_configuration={nobody}")).await;
+    assert_eq!(refused.status, StatusCode::FORBIDDEN);
+    assert!(refused.text().contains("Connection refused"), "{}", refused.text());
     bench.finish().await;
 }
