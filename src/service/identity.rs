@@ -31,6 +31,7 @@ pub(super) use join::become_student;
 pub use join::{
     check_course_link, course_link, course_secret, join, leave, normal_number, renew_course_secret, with_code,
 };
+pub(super) use login::forget_session;
 pub use login::{LoginForm, login, logout, open_for};
 pub use origin::is_own_page;
 pub(super) use secrets::{equal_secrets, hex};

@@ -12,7 +12,8 @@ use super::clock::millis;
 use super::errors::Problem;
 use super::id_tokens::{self, Issuer};
 use super::identity::{
-    Jar, Visitor, become_student, has_launch, member_of, new_token, normal_number, open_for, set_sign_in, token_hash,
+    Jar, Visitor, become_student, forget_session, has_launch, member_of, new_token, normal_number, open_for,
+    set_sign_in, token_hash,
 };
 use super::store::{Proof, SignIn};
 use super::{Service, lti};
@@ -171,5 +172,6 @@ async fn enter(
     let page = state.map_or_else(|| "/".to_owned(), |state| state.page());
     let mut response = Redirect::to(&page).into_response();
     visitor.set_cookie(service, &mut response);
+    forget_session(service, &mut response, Jar::Own);
     Ok(response)
 }

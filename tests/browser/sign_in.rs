@@ -209,3 +209,49 @@ async fn a_platform_lets_people_in_within_its_page_and_in_a_new_window() {
     assert_eq!(far.seen().hints.len(), 0);
     browser.end().await;
 }
+
+/// A service that is told that it is behind https. Chromium keeps cookies of localhost as if that were so.
+fn behind_https() -> Server {
+    let port = std::net::TcpListener::bind("127.0.0.1:0").expect("a port").local_addr().expect("an address").port();
+    let configuration = tempfile::NamedTempFile::new().expect("a file");
+    let text = format!("listen = \"127.0.0.1:{port}\"\npublic_url = \"https://localhost:{port}\"\n");
+    std::fs::write(configuration.path(), text).expect("written");
+    let mut server = Server::configured(configuration.path());
+    server.address = format!("http://localhost:{port}");
+    server
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn within_another_sites_page_cookies_are_that_pages() {
+    let (server, browser, far) = (behind_https(), Browser::start().await, Platform::start().await);
+    browser.size(1280, 900).await;
+    browser.languages("en").await;
+    add(&server, &far).await;
+    let come = async |who: &str, role: &str| {
+        let address = format!("{}/course?tool={}&who={who}&role={role}", far.issuer, server.address);
+        browser.open(&address).await;
+        browser.look_into_frame("iframe").await;
+    };
+    come("s1", "Learner").await;
+    is_student(&browser, "S1").await;
+    crate::choose(&browser, &crate::sample(crate::RIGHT), "full").await;
+    browser.click("form.work .primary").await;
+    browser.until("document.querySelector('.receipt .permalink')").await;
+    come("teacher", "Instructor").await;
+    browser.until("document.querySelector('.overview')?.textContent.includes('1')").await;
+    browser.click("nav a[href$='/settings']").await;
+    browser.until("location.pathname.endsWith('/settings')").await;
+    browser.click("main form .primary").await;
+    browser.until("document.querySelector('.notice')?.textContent.includes('Saved')").await;
+    // A student comes after whoever taught at the same browser, and is nobody else.
+    come("s2", "Learner").await;
+    is_student(&browser, "S2").await;
+    assert!(!browser.has(".attempts").await, "another one's attempts");
+    browser.js("location.href = '/teacher'").await;
+    browser.until("location.pathname === '/teacher/login'").await;
+    // Outside of the platform's page the browser is nobody's.
+    browser.open(&server.at("/")).await;
+    browser.until("document.querySelector('.desk')").await;
+    assert!(!browser.has(".top .who bdi").await, "a cookie of the frame");
+    browser.end().await;
+}

@@ -108,6 +108,11 @@ async fn whoever_launches_is_who_the_platform_says(database: Database) {
     assert_eq!((student.status, student.header("location")), (StatusCode::SEE_OTHER, "/a/ggsample06"));
     let theirs = cookie(&student, "ggrade");
     assert_eq!(with_cookie(&bench, "/teacher", &theirs).await.header("location"), "/teacher/login");
+    // Whoever taught at the same browser has left; who teaches and looks at the homework as a student does has not.
+    assert_eq!(cookie(&student, "ggrade_teacher"), "ggrade_teacher=");
+    let switched = launch(&bench, &platform, "teacher", "Learner").await;
+    let set = switched.headers.get_all(header::SET_COOKIE).iter();
+    assert!(set.into_iter().all(|line| !line.as_bytes().starts_with(b"ggrade_teacher")), "{switched:?}");
     assert_eq!(hand_in(&bench, &theirs, right()).await.status, StatusCode::CREATED);
     let class = get(&bench, "/teacher").await;
     assert_eq!(class.all(".people tbody th"), ["S1 Name of s1"]);

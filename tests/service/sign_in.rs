@@ -128,6 +128,7 @@ async fn students_and_staff_come_in_by_the_issuers_word(database: Database) {
     let second = back(&bench, &both, &code, &format!("&iss={}", issuer.address)).await;
     assert_eq!(second.status, StatusCode::SEE_OTHER, "{second:?}");
     assert_ne!(cookies(&first), cookies(&second));
+    assert!(cookies(&second).contains(&"ggrade_teacher=".to_owned()), "whoever taught there has left: {second:?}");
     assert_eq!(get(&bench, "/", &cookies(&second).join("; ")).await.all(".top .who bdi"), ["S2"]);
     // Who teaches has an account with this login.
     let staff = signed_in(&bench, &issuer, "prof@example.ac.jp", |_| ()).await;

@@ -93,7 +93,11 @@ async fn open(service: &Service, session: TeacherSession, page: &str, jar: Jar) 
         detail: String::new(),
     };
     log.note_act(&act).await?;
-    Ok(to_page_with_cookie(service, page, (&token, SESSION.as_secs()), jar))
+    let mut response = Redirect::to(page).into_response();
+    if let Some(cookie) = set(service, TEACHER_COOKIE, &token, SESSION.as_secs(), jar) {
+        response.headers_mut().append(header::SET_COOKIE, cookie);
+    }
+    Ok(response)
 }
 
 /// Ends a session: the answer goes to `/` and removes the cookie.
@@ -102,20 +106,19 @@ pub async fn logout(service: &Service, teacher: &Teacher, csrf: &str) -> Result<
     if let Some(session) = teacher.session() {
         service.accounts().close_session(Some(&token_hash(session))).await?;
     }
-    let mut response = to_page_with_cookie(service, "/", ("", 0), Jar::Own);
+    let mut response = Redirect::to("/").into_response();
     // The session may be one of a frame.
-    if let Some(cookie) = set(service, TEACHER_COOKIE, "", 0, Jar::Embedded) {
-        response.headers_mut().append(header::SET_COOKIE, cookie);
+    for jar in [Jar::Own, Jar::Embedded] {
+        forget_session(service, &mut response, jar);
     }
     Ok(response)
 }
 
-fn to_page_with_cookie(service: &Service, page: &str, (value, seconds): (&str, u64), jar: Jar) -> Response {
-    let mut response = Redirect::to(page).into_response();
-    if let Some(cookie) = set(service, TEACHER_COOKIE, value, seconds, jar) {
+/// Takes a teacher's session out of a browser in which a student is known from now on: whoever sat there before has left.
+pub(in crate::service) fn forget_session(service: &Service, response: &mut Response, jar: Jar) {
+    if let Some(cookie) = set(service, TEACHER_COOKIE, "", 0, jar) {
         response.headers_mut().append(header::SET_COOKIE, cookie);
     }
-    response
 }
 
 /// What a login and a password open, or a secret of the whole service without a login.

@@ -1,6 +1,6 @@
 //! A launch: the platform sends the browser back with its word on who that is.
 
-use super::super::identity::{Jar, Visitor, become_student, has_launch, open_for, token_hash};
+use super::super::identity::{Jar, Visitor, become_student, forget_session, has_launch, open_for, token_hash};
 use super::super::pages::{PageFrame, launch_lost, shown_choice};
 use super::super::store::{Link, Platform, Proof};
 use super::super::{Service, State};
@@ -154,6 +154,11 @@ async fn open(
     let visitor = become_student(service, visitor, student, Proof::Platform).await?;
     let mut response = Redirect::to(&state.page()).into_response();
     visitor.set_cookie_in(service, &mut response, jar);
+    // Whoever teaches there as well looks at the homework as a student does.
+    let known = service.store.platform_person(&platform.id, &who.subject).await?;
+    if known.is_none_or(|person| person.staff_id.is_none()) {
+        forget_session(service, &mut response, jar);
+    }
     Ok(response)
 }
 

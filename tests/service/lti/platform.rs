@@ -233,13 +233,15 @@ async fn come(State(platform): State<Platform>, Query(query): Query<HashMap<Stri
 /// Says who it is, to whom it knows.
 async fn auth(State(platform): State<Platform>, Query(query): Query<HashMap<String, String>>) -> Html<String> {
     assert_eq!((query["client_id"].as_str(), query["response_mode"].as_str()), (CLIENT, "form_post"));
+    // The tool may say that it is behind https on this machine, for which nobody has a certificate.
+    let back = query["redirect_uri"].replace("https://localhost", "http://localhost");
     let known = platform.seen().hints.remove(&query["lti_message_hint"]);
     let Some((who, role)) = known.as_deref().and_then(|known| known.split_once(' ')) else {
         let failed = [("error", "invalid_request"), ("state", &query["state"])];
-        return Html(posted(&query["redirect_uri"], &failed));
+        return Html(posted(&back, &failed));
     };
     let token = platform.sign(&platform.claims(&query["nonce"], who, role));
-    Html(posted(&query["redirect_uri"], &[("id_token", &token), ("state", &query["state"])]))
+    Html(posted(&back, &[("id_token", &token), ("state", &query["state"])]))
 }
 
 /// A page that sends a form as soon as it is there.
