@@ -13,7 +13,7 @@ mod way;
 pub use archived::archived;
 pub(super) use archived::keep;
 pub use copy::copy;
-pub use plan::{CoursePlan, arrange, changed, reread, too_many};
+pub use plan::{CoursePlan, arrange, changed, points, reread, too_many};
 pub(super) use way::{answer, within};
 pub use way::{at, public_address, root, root_of};
 

@@ -1,6 +1,7 @@
 //! The gradebook of a course: everybody with what they have in each homework, and together.
 
 use super::classes::people;
+use super::courses;
 use super::download;
 use super::errors::Problem;
 use super::{Service, State};
@@ -61,8 +62,7 @@ impl Gradebook {
         let mut lines: BTreeMap<String, GradebookPerson> = BTreeMap::new();
         for (index, state) in states.iter().enumerate() {
             let id = state.assignment.id.clone();
-            let own = places.iter().find(|place| place.id == id).and_then(|place| place.points);
-            let points = own.unwrap_or_else(|| state.assignment.max_score());
+            let points = courses::points(&places, &state.assignment);
             homeworks.push(HomeworkColumn { id, title: language.of(&state.assignment.title).to_owned(), points });
             // Whoever gave no number is nobody whose homeworks could be put together.
             for person in people(state).await?.class.into_iter().filter(|person| !person.number.is_empty()) {

@@ -42,6 +42,8 @@ async fn a_platform_is_registered_and_a_homework_chosen(database: Database) {
     assert_eq!(asked["token_endpoint_auth_method"], "private_key_jwt");
     assert!(asked["scope"].as_str().expect("scopes").contains("lti-ags/scope/score"));
 
+    let points = request("PATCH", "/api/v1/assignments/ggsample06/settings", "application/json", "{\"points\": 40}");
+    assert_eq!(bench.send(points).await.status, StatusCode::OK);
     let begun = begin(&bench, &platform, false).await;
     for (name, value) in [
         ("response_type", "id_token"),
@@ -74,7 +76,7 @@ async fn a_platform_is_registered_and_a_homework_chosen(database: Database) {
     assert_eq!((&item["type"], &item["custom"]["assignment"]), (&json!("ltiResourceLink"), &json!("ggsample06")));
     assert_eq!(
         (&item["url"], &item["lineItem"]["scoreMaximum"]),
-        (&json!("http://ggrade.example/a/ggsample06"), &json!(100))
+        (&json!("http://ggrade.example/a/ggsample06"), &json!(40.0))
     );
     bench.finish().await;
 }
@@ -106,13 +108,13 @@ async fn whoever_launches_is_who_the_platform_says(database: Database) {
 
     let student = launch(&bench, &platform, "s1", "Learner").await;
     assert_eq!((student.status, student.header("location")), (StatusCode::SEE_OTHER, "/a/ggsample06"));
-    let theirs = cookie(&student, "ggrade");
-    assert_eq!(with_cookie(&bench, "/teacher", &theirs).await.header("location"), "/teacher/login");
     // Whoever taught at the same browser has left; who teaches and looks at the homework as a student does has not.
     assert_eq!(cookie(&student, "ggrade_teacher"), "ggrade_teacher=");
     let switched = launch(&bench, &platform, "teacher", "Learner").await;
     let set = switched.headers.get_all(header::SET_COOKIE).iter();
     assert!(set.into_iter().all(|line| !line.as_bytes().starts_with(b"ggrade_teacher")), "{switched:?}");
+    let theirs = cookie(&student, "ggrade");
+    assert_eq!(with_cookie(&bench, "/teacher", &theirs).await.header("location"), "/teacher/login");
     assert_eq!(hand_in(&bench, &theirs, right()).await.status, StatusCode::CREATED);
     let class = get(&bench, "/teacher").await;
     assert_eq!(class.all(".people tbody th"), ["S1 Name of s1"]);

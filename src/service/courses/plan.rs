@@ -55,6 +55,12 @@ pub async fn reread(service: &Service) -> StoreResult<()> {
     folders::follow(service).await
 }
 
+/// What a homework counts in its course: what a lecturer set, or as many points as its rubric has.
+pub fn points(places: &[CoursePlace], assignment: &Assignment) -> f64 {
+    let own = places.iter().find(|place| place.id == assignment.id).and_then(|place| place.points);
+    own.unwrap_or_else(|| assignment.max_score())
+}
+
 /// Gives the course these homeworks, in this order. Another course than the first leaves out what it chose, and chooses what is
 /// offered; a homework that has a folder here stays until that is taken out of service.
 pub async fn arrange(service: &Service, ids: &[String]) -> Result<(), Problem> {

@@ -1,6 +1,7 @@
 //! A lecturer chooses in the platform's course which homework a link is for.
 
 use super::super::Service;
+use super::super::courses;
 use super::super::identity::new_id;
 use super::super::pages::PageFrame;
 use super::super::store::{Platform, StaffRole};
@@ -14,6 +15,14 @@ use serde_json::{Value, json};
 
 /// How long a choice holds, in seconds.
 const HOUR: i64 = 3600;
+
+/// The most points of a column that a platform takes without being set up for more, as Moodle's `gradepointmax`.
+const USUAL_MOST: f64 = 100.0;
+
+/// Whether every platform takes a column of so many points: Moodle's form wants a whole number.
+fn is_usual(points: f64) -> bool {
+    (1.0..=USUAL_MOST).contains(&points) && points.fract() == 0.0
+}
 
 /// The homeworks to choose from.
 #[derive(Debug)]
@@ -43,15 +52,18 @@ pub(super) async fn offer(
     })?;
     let action = checked(&wanted.deep_link_return_url).map_err(|why| refused(why.en, why.ja))?;
     let own = address(service)?;
+    let places = service.store.places().await?;
     let (mut titles, mut items) = (Vec::new(), Vec::new());
     for state in service.homeworks() {
         let title = frame.language.of(&state.assignment.title).to_owned();
+        let points = courses::points(&places, &state.assignment);
+        let most = if is_usual(points) { points } else { USUAL_MOST };
         items.push(json!({
             "type": "ltiResourceLink",
             "title": title,
             "url": format!("{own}{}", state.place()),
             "custom": { HOMEWORK: state.assignment.id },
-            "lineItem": { "scoreMaximum": 100, "label": title, "resourceId": state.assignment.id },
+            "lineItem": { "scoreMaximum": most, "label": title, "resourceId": state.assignment.id },
         }));
         titles.push(title);
     }
