@@ -1,4 +1,4 @@
-//! What holds for all pages: accessible, no wider than the window, no complaint of the browser.
+//! What holds for all pages: accessible, no wider than the window, read from top to bottom by the keyboard, no complaint of the browser.
 
 use super::{Browser, Devtools, root};
 use serde_json::{Value, json};
@@ -18,7 +18,7 @@ impl Browser {
     }
 
     /// Holds a page to what holds for all: accessible by the rules of axe-core in light and in dark, no wider than the
-    /// window, no complaint of the browser. A picture of each is kept.
+    /// window, in the order of the keyboard, no complaint of the browser. A picture of each is kept.
     pub async fn check(&self, name: &str) {
         for scheme in ["light", "dark"] {
             self.scheme(scheme).await;
@@ -28,6 +28,7 @@ impl Browser {
         }
         self.scheme("light").await;
         self.narrow_enough(name).await;
+        self.in_keyboard_order(name).await;
         let complaints = self.complaints().await;
         assert!(complaints.is_empty(), "{name}:\n{}", complaints.join("\n"));
     }
@@ -41,6 +42,20 @@ impl Browser {
                    .slice(0, 5).map(e => `${e.tagName}.${e.getAttribute('class')}`)")
             .await;
         assert_eq!(overflow, json!([]), "{name} scrolls sideways");
+    }
+
+    /// On a phone, where a page is one column, the keyboard never goes to something above.
+    async fn in_keyboard_order(&self, name: &str) {
+        let backwards = self
+            .js("if (innerWidth > 480) return []; \
+                 const all = [...(document.querySelector('dialog[open]') ?? document).querySelectorAll('a[href], button, input, select, textarea, summary')] \
+                   .filter(e => e.tabIndex >= 0 && !e.disabled && e.checkVisibility() && e.offsetHeight > 1); \
+                 const place = e => e.getBoundingClientRect(); \
+                 return all.slice(1).map((e, i) => [all[i], e]) \
+                   .filter(([one, next]) => place(next).bottom <= place(one).top + 1) \
+                   .map(pair => pair.map(e => e.outerHTML.slice(0, 100)).join(' → '))")
+            .await;
+        assert_eq!(backwards, json!([]), "{name}: the keyboard goes up");
     }
 
     async fn axe(&self) -> Vec<String> {
