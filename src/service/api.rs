@@ -16,6 +16,7 @@ mod folders;
 mod insights;
 mod judgements;
 mod likeness;
+mod members;
 mod operations;
 mod own;
 pub(super) mod pictures;

@@ -32,7 +32,7 @@ pub fn check_points(points: f64) -> Result<f64, Text> {
 /// What is wrong with rules, where something is.
 pub fn check(rules: &AssignmentSettings) -> Result<(), Text> {
     let (opens, due, late) = (rules.opens_at, rules.closes_at, &rules.late);
-    let share = |number: f64| (0.0..=100.0).contains(&number);
+    let is_share = |number: f64| (0.0..=100.0).contains(&number);
     if opens.zip(due).is_some_and(|(opens, due)| due <= opens) {
         return Err(Text::new("The end must come after the beginning.", "終了日時は開始日時より後にしてください。"));
     }
@@ -51,8 +51,17 @@ pub fn check(rules: &AssignmentSettings) -> Result<(), Text> {
             "遅延提出の終了日時は締切より後にしてください。締切がない場合は空欄にしてください。",
         ));
     }
-    if !share(late.percent) || !share(late.floor) {
-        return Err(Text::new("A share is a number from 0 to 100.", "割合は 0 から 100 の数で入力してください。"));
+    if !is_share(late.percent) {
+        return Err(Text::new(
+            "Deduction: a number from 0 to 100, in percent of all points.",
+            "減点は 0 から 100 までの数（満点に対する %）で入力してください。",
+        ));
+    }
+    if !is_share(late.floor) {
+        return Err(Text::new(
+            "Floor: a number from 0 to 100, in percent of all points.",
+            "減点後の下限は 0 から 100 までの数（満点に対する %）で入力してください。",
+        ));
     }
     Ok(())
 }

@@ -1,5 +1,7 @@
 //! A program sets a term up and runs it, by the API alone.
 
+mod words;
+
 use crate::bench::{Bench, Reply, TEACHER, config};
 use crate::cluster::Database;
 use crate::{on_both, right, sample};

@@ -4,6 +4,7 @@ use super::batches::OfQuery;
 use super::body::unkept;
 use super::caller::Caller;
 use super::judgements::{judged, noted};
+use super::members::read;
 use super::refusals::{Errors, NotFound, Refusals};
 use super::schema::time;
 use crate::service::Service;
@@ -18,6 +19,7 @@ use axum::extract::{Path, Query, State as Shared};
 use axum::http::StatusCode;
 use axum::response::Response;
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 
 /// What a student asks to be looked at again.
 #[derive(Debug, Serialize, utoipa::ToSchema)]
@@ -110,9 +112,9 @@ pub(super) async fn answer(
     caller: Caller,
     Shared(service): Shared<Service>,
     Path(id): Path<String>,
-    wish: Result<Json<AnswerWish>, JsonRejection>,
+    wish: Result<Json<Value>, JsonRejection>,
 ) -> Result<Response, Problem> {
-    let Json(AnswerWish { answer }) = wish.map_err(super::body::other)?;
+    let AnswerWish { answer } = read(wish)?;
     handled(&service, &caller, &id, Handling::Answer(&answer), &answer).await
 }
 

@@ -88,17 +88,3 @@ pub(in crate::service) fn other(rejection: impl IntoResponse + std::fmt::Display
 pub(super) fn unkept(json: impl serde::Serialize) -> Response {
     ([(header::CACHE_CONTROL, "no-store")], Json(json)).into_response()
 }
-
-/// An object with the members of a patch in the place of its own (RFC 7396, of one level).
-pub(super) fn patched<T: serde::Serialize + serde::de::DeserializeOwned>(
-    before: T,
-    patch: &serde_json::Value,
-) -> Result<T, Problem> {
-    let wrong = |said: String| Problem::unprocessable(said.clone(), said);
-    let mut whole = serde_json::to_value(before).map_err(|error| Problem::internal(&error))?;
-    let (Some(members), Some(patch)) = (whole.as_object_mut(), patch.as_object()) else {
-        return Err(Problem::unprocessable("The body is no JSON object.", "本文が JSON オブジェクトではありません。"));
-    };
-    members.extend(patch.iter().map(|(name, value)| (name.clone(), value.clone())));
-    serde_json::from_value(whole).map_err(|error| wrong(error.to_string()))
-}

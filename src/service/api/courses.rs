@@ -1,7 +1,8 @@
 //! `/api/v1/courses`, and `/api/v1/course`: the courses of the service, and what a course sets for all its homeworks.
 
-use super::body::{other, patched, unkept};
+use super::body::{other, unkept};
 use super::caller::{Caller, check_course, check_reader};
+use super::members::{self, patched};
 use super::refusals::{Errors, NotFound, Refusals};
 use super::schema::time;
 use crate::language::Language;
@@ -106,11 +107,11 @@ pub(super) async fn list(
 pub(super) async fn create(
     caller: Caller,
     Shared(service): Shared<Service>,
-    wish: Result<Json<CourseWish>, JsonRejection>,
+    wish: Result<Json<Value>, JsonRejection>,
 ) -> Result<Response, Problem> {
     only_first(&service)?;
     check_course(&caller, &service, StaffRole::Administrator)?;
-    let Json(wish) = wish.map_err(other)?;
+    let wish: CourseWish = members::read(wish)?;
     let made = match &wish.copy_of {
         None => courses::make(&service, &wish.id, &wish.title).await?,
         Some(from) => {
@@ -137,6 +138,7 @@ pub(super) struct CourseJson {
     /// Time zone of its dates, by its name in the tz database.
     zone: String,
     /// Language of what students read through other systems.
+    #[schema(inline)]
     language: Language,
     /// Whether assistants read pseudonyms in place of names.
     pseudonyms: bool,
@@ -193,7 +195,7 @@ pub(super) async fn change(
     let Json(patch) = patch.map_err(other)?;
     let before = course_json(&service, &caller.0, &caller.1).await?;
     let (was_archived, link) = (before.is_archived, before.link.clone());
-    let after: CourseJson = patched(before, &patch)?;
+    let after: CourseJson = patched(&before, &patch)?;
     if after.is_archived != was_archived {
         caller.0.check_role(StaffRole::Administrator)?;
     }

@@ -3,6 +3,7 @@
 use super::batches::OfQuery;
 use super::body::unkept;
 use super::caller::{Caller, check};
+use super::members::read;
 use super::refusals::{Errors, NotFound, Refusals};
 use super::schema::time;
 use crate::service::Service;
@@ -17,6 +18,7 @@ use axum::extract::{Query, State as Shared};
 use axum::http::StatusCode;
 use axum::response::{IntoResponse, Response};
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 
 /// A deadline in place of that of the class.
 #[derive(Debug, Serialize, utoipa::ToSchema)]
@@ -93,11 +95,11 @@ pub(super) async fn set(
     caller: Caller,
     Shared(service): Shared<Service>,
     of: Result<Query<OfQuery>, QueryRejection>,
-    wish: Result<Json<ExtensionWish>, JsonRejection>,
+    wish: Result<Json<Value>, JsonRejection>,
 ) -> Result<Response, Problem> {
     check(&caller, &service, StaffRole::Lecturer)?;
     let Query(of) = of.map_err(super::body::other)?;
-    let Json(wish) = wish.map_err(super::body::other)?;
+    let wish: ExtensionWish = read(wish)?;
     let state = service.named(of.assignment.as_deref())?;
     caller.0.check(&state.assignment.id)?;
     let to = beneficiary(&state, &wish.whose).await?;

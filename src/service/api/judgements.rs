@@ -1,6 +1,7 @@
 //! What people judge beside the grading: for teachers.
 
 use super::caller::{Caller, check_page};
+use super::members::read;
 use super::refusals::{Errors, NotFound, Refusals};
 use crate::service::Service;
 use crate::service::acts::Detail;
@@ -13,6 +14,7 @@ use axum::extract::{Path, State as Shared};
 use axum::http::StatusCode;
 use axum::response::{IntoResponse, Response};
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 
 /// The submission with its report, for a teacher who may see it.
 pub(super) async fn judged(
@@ -64,9 +66,9 @@ pub(super) async fn override_line(
     caller: Caller,
     Shared(service): Shared<Service>,
     Path((id, line)): Path<(String, String)>,
-    wish: Result<Json<OverrideWish>, JsonRejection>,
+    wish: Result<Json<Value>, JsonRejection>,
 ) -> Result<Response, Problem> {
-    let Json(OverrideWish { points, reason }) = wish.map_err(super::body::other)?;
+    let OverrideWish { points, reason } = read(wish)?;
     let stored = judged(&service, &caller, &id).await?;
     let said = judgement::override_line(&service, &caller.0, &stored, &line, Some((points, &reason))).await?;
     Ok(noted_where(stored, said, StatusCode::NO_CONTENT))
@@ -133,9 +135,9 @@ pub(super) async fn add_comment(
     caller: Caller,
     Shared(service): Shared<Service>,
     Path(id): Path<String>,
-    wish: Result<Json<CommentWish>, JsonRejection>,
+    wish: Result<Json<Value>, JsonRejection>,
 ) -> Result<Response, Problem> {
-    let Json(CommentWish { file, line, text }) = wish.map_err(super::body::other)?;
+    let CommentWish { file, line, text } = read(wish)?;
     let stored = judged(&service, &caller, &id).await?;
     let comment = judgement::comment(&service, &caller.0, &stored, (&file, line), &text).await?;
     let said = format!("{}:{}: {}", comment.file, comment.line, comment.text);

@@ -3,6 +3,7 @@
 use super::appeals::AppealJson;
 use super::body::{other, unkept};
 use super::caller::check;
+use super::members::read;
 use super::refusals::{Errors, NotFound, Refusals};
 use super::submissions::with_course;
 use crate::service::acts::Detail;
@@ -18,6 +19,7 @@ use axum::extract::{Path, Query, State as Shared};
 use axum::http::{HeaderMap, StatusCode};
 use axum::response::{IntoResponse, Response};
 use serde::Deserialize;
+use serde_json::Value;
 
 /// Which student asks.
 #[derive(Clone, Debug, Default, Deserialize, utoipa::IntoParams)]
@@ -106,9 +108,10 @@ pub(super) async fn ask(
     headers: HeaderMap,
     Path(id): Path<String>,
     who: Result<Query<StudentQuery>, QueryRejection>,
-    wish: Result<Json<QuestionWish>, JsonRejection>,
+    wish: Result<Json<Value>, JsonRejection>,
 ) -> Result<Response, Problem> {
-    let (Query(who), Json(QuestionWish { line, question })) = (who.map_err(other)?, wish.map_err(other)?);
+    let Query(who) = who.map_err(other)?;
+    let QuestionWish { line, question } = read(wish)?;
     let (state, stored) = service.stored(&id).await?;
     let identity = who.identity(&state, visitor, &headers).await?;
     let appeal = judgement::ask(&state, &identity, &stored, &line, &question).await?;

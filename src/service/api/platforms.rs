@@ -1,7 +1,8 @@
 //! `/api/v1/platforms`: the learning platforms from which people come.
 
-use super::body::{other, unkept};
+use super::body::unkept;
 use super::caller::{Caller, check_course, check_reader};
+use super::members::read;
 use super::refusals::{Errors, NotFound, Refusals};
 use crate::service::Service;
 use crate::service::acts::Detail;
@@ -16,6 +17,7 @@ use axum::extract::{Path, State as Shared};
 use axum::http::StatusCode;
 use axum::response::{IntoResponse, Response};
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 
 /// A learning platform.
 #[derive(Serialize, utoipa::ToSchema)]
@@ -183,10 +185,10 @@ pub(super) async fn list(teacher: Teacher, Shared(service): Shared<Service>) -> 
 pub(super) async fn add(
     caller: Caller,
     Shared(service): Shared<Service>,
-    wish: Result<Json<PlatformWish>, JsonRejection>,
+    wish: Result<Json<Value>, JsonRejection>,
 ) -> Result<Response, Problem> {
     check_course(&caller, &service, StaffRole::Administrator)?;
-    let Json(wish) = wish.map_err(other)?;
+    let wish: PlatformWish = read(wish)?;
     let platform = Platform {
         id: new_id(),
         name: wish.name,
@@ -227,10 +229,10 @@ pub(super) async fn change(
     caller: Caller,
     Shared(service): Shared<Service>,
     Path(id): Path<String>,
-    wish: Result<Json<PlatformChange>, JsonRejection>,
+    wish: Result<Json<Value>, JsonRejection>,
 ) -> Result<Response, Problem> {
     check_course(&caller, &service, StaffRole::Administrator)?;
-    let Json(wish) = wish.map_err(other)?;
+    let wish: PlatformChange = read(wish)?;
     let platform = own(&service, &id).await?;
     let mut said = platform.issuer.clone();
     if let Some(is_active) = wish.is_active {
@@ -257,10 +259,10 @@ pub(super) async fn connect(
     caller: Caller,
     Shared(service): Shared<Service>,
     Path(id): Path<String>,
-    wish: Result<Json<ConnectionWish>, JsonRejection>,
+    wish: Result<Json<Value>, JsonRejection>,
 ) -> Result<Response, Problem> {
     check_course(&caller, &service, StaffRole::Administrator)?;
-    let Json(wish) = wish.map_err(other)?;
+    let wish: ConnectionWish = read(wish)?;
     let platform = own(&service, &id).await?;
     contexts::connect(&service, &platform, &wish.context, wish.course.as_deref()).await?;
     let course = wish.course.as_deref().unwrap_or("–");
@@ -281,10 +283,10 @@ pub(super) async fn fetch(
     caller: Caller,
     Shared(service): Shared<Service>,
     Path(id): Path<String>,
-    wish: Result<Json<FetchWish>, JsonRejection>,
+    wish: Result<Json<Value>, JsonRejection>,
 ) -> Result<Response, Problem> {
     check_course(&caller, &service, StaffRole::Lecturer)?;
-    let Json(wish) = wish.map_err(other)?;
+    let wish: FetchWish = read(wish)?;
     let platform = service.store.platform(&id).await?.ok_or_else(Problem::not_found)?;
     let links = service.store.links().await?;
     let link = links

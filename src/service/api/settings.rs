@@ -1,7 +1,8 @@
 //! `/api/v1/assignments/{id}/settings`, and `/api/v1/plan`: what a lecturer sets for the homeworks of a course.
 
-use super::body::{other, patched, unkept};
+use super::body::{other, unkept};
 use super::caller::{Caller, check, check_course};
+use super::members::{self, patched};
 use super::refusals::{Errors, NotFound, Refusals};
 use crate::diagnose::Hints;
 use crate::language::Text;
@@ -175,7 +176,7 @@ pub(super) async fn change(
     caller.0.check(&id)?;
     let Json(patch) = patch.map_err(other)?;
     let (rules, place) = standing(&state).await?;
-    let (rules, place) = patched(SettingsJson::of(&rules, &place), &patch)?.read(rules, place)?;
+    let (rules, place) = patched(&SettingsJson::of(&rules, &place), &patch)?.read(rules, place)?;
     state.store.set_assignment(&rules).await?;
     state.store.set_places(std::slice::from_ref(&place)).await?;
     let json = Json(SettingsJson::of(&rules, &place));
@@ -211,10 +212,10 @@ pub(super) async fn plan(teacher: Teacher, Shared(service): Shared<Service>) -> 
 pub(super) async fn set_plan(
     caller: Caller,
     Shared(service): Shared<Service>,
-    wish: Result<Json<PlanJson>, JsonRejection>,
+    wish: Result<Json<Value>, JsonRejection>,
 ) -> Result<Response, Problem> {
     check_course(&caller, &service, StaffRole::Lecturer)?;
-    let Json(wish) = wish.map_err(other)?;
+    let wish: PlanJson = members::read(wish)?;
     courses::arrange(&service, &wish.assignments).await?;
     let plan = plan_json(&service);
     Ok(Detail::of(plan.assignments.join(", ")).on(Json(plan).into_response()))

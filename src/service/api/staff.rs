@@ -1,7 +1,8 @@
 //! `/api/v1/staff`: who teaches in a course.
 
-use super::body::{other, patched, unkept};
+use super::body::{other, unkept};
 use super::caller::{Caller, check_course, check_reader};
+use super::members::{patched, read};
 use super::refusals::{Errors, NotFound, Refusals};
 use crate::service::Service;
 use crate::service::acts::Detail;
@@ -108,10 +109,10 @@ pub(super) async fn list(teacher: Teacher, Shared(service): Shared<Service>) -> 
 pub(super) async fn add(
     caller: Caller,
     Shared(service): Shared<Service>,
-    wish: Result<Json<StaffWish>, JsonRejection>,
+    wish: Result<Json<Value>, JsonRejection>,
 ) -> Result<Response, Problem> {
     check_course(&caller, &service, StaffRole::Lecturer)?;
-    let Json(wish) = wish.map_err(other)?;
+    let wish: StaffWish = read(wish)?;
     no_administrator(wish.role)?;
     check_may_manage(&caller.0, wish.role)?;
     let (member, secret) = identity::let_in(&service, &caller.0, (&wish.login, &wish.name), wish.role).await?;
@@ -139,7 +140,7 @@ pub(super) async fn change(
     let Json(patch) = patch.map_err(other)?;
     let member = service.store.course_member(&id).await?.ok_or_else(Problem::not_found)?;
     let StaffChange { role, is_active } =
-        patched(StaffChange { role: member.role, is_active: member.is_active }, &patch)?;
+        patched(&StaffChange { role: member.role, is_active: member.is_active }, &patch)?;
     for role in [member.role, role] {
         no_administrator(role)?;
         check_may_manage(&caller.0, role)?;
