@@ -9,6 +9,7 @@ use axum::extract::{MatchedPath, Request, State as Shared};
 use axum::http::Method;
 use axum::middleware::Next;
 use axum::response::Response;
+use std::fmt::Display;
 
 /// More about an act, for its line in the log.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -37,6 +38,14 @@ impl Detail {
     pub fn about(student_id: &str) -> Self {
         Self { student_id: Some(student_id.to_owned()), ..Self::default() }
     }
+}
+
+/// What differs between settings as they stood and as they stand: `attempts: – → 3, hints: full → none`.
+pub fn changes<N: Display>(before: &[(N, String)], after: &[(N, String)]) -> String {
+    let shown = |text: &str| if text.is_empty() { "–".to_owned() } else { text.to_owned() };
+    let changed = before.iter().zip(after).filter(|((_, before), (_, after))| before != after);
+    let lines = changed.map(|((name, before), (_, after))| format!("{name}: {} → {}", shown(before), shown(after)));
+    lines.collect::<Vec<_>>().join(", ")
 }
 
 /// What a request does, in the word that the log has for it; none for what is logged by itself, or is no act.

@@ -1,11 +1,19 @@
 //! What time it is: the machine's, or one that a test sets.
 
+use jiff::Timestamp;
+use jiff::tz::TimeZone;
 use std::sync::atomic::{AtomicI64, Ordering};
 use std::sync::{Arc, LazyLock};
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
 /// Milliseconds since 1970 in UTC.
 pub type Millis = i64;
+
+/// A time of a time zone to the minute, as a `datetime-local` field has it.
+pub fn local_minute(at: Millis, zone: &TimeZone) -> String {
+    let timestamp = Timestamp::from_millisecond(at).unwrap_or_default();
+    timestamp.to_zoned(zone.clone()).strftime("%Y-%m-%dT%H:%M").to_string()
+}
 
 /// A clock.
 #[derive(Clone, Debug, Default)]

@@ -2,7 +2,7 @@
 //! students. All are settings of the teacher's, and neither is the machine's.
 
 use super::errors::Problem;
-use super::store::{Result as StoreResult, Store};
+use super::store::{Result as StoreResult, Store, word};
 use super::texts::check_length;
 use crate::language::Language;
 use jiff::tz::TimeZone;
@@ -52,6 +52,11 @@ impl Course {
     pub fn new(zone: &str, language: Language) -> Option<Self> {
         let zone = TimeZone::get(zone.trim()).ok().filter(|zone| zone.iana_name().is_some())?;
         Some(Self { zone, language, title: String::new() })
+    }
+
+    /// The course in the words of the log of acts. The title is last: it says whatever somebody wrote.
+    pub fn described(&self) -> [(&'static str, String); 3] {
+        [("zone", self.zone_name().to_owned()), ("language", word(&self.language)), ("title", self.title.clone())]
     }
 
     /// The same with a title, without what is in no title; a problem where it is too long.

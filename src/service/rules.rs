@@ -1,8 +1,10 @@
 //! What a homework's rules may be, whoever sets them: a form or a program.
 
-use super::clock::Millis;
-use super::store::AssignmentSettings;
+use super::clock::{Millis, local_minute};
+use super::store::{AssignmentSettings, CoursePlace, word};
 use crate::language::Text;
+use crate::report::text::number;
+use jiff::tz::TimeZone;
 
 /// A minute.
 pub const MINUTE: Millis = 60_000;
@@ -64,4 +66,39 @@ pub fn check(rules: &AssignmentSettings) -> Result<(), Text> {
         ));
     }
     Ok(())
+}
+
+/// Rules in the words of the log of acts.
+pub fn described(rules: &AssignmentSettings, zone: &TimeZone) -> [(&'static str, String); 12] {
+    let date = |at: Option<Millis>| at.map(|at| local_minute(at, zone)).unwrap_or_default();
+    let late = &rules.late;
+    [
+        ("opens", date(rules.opens_at)),
+        ("closes", date(rules.closes_at)),
+        ("attempts", rules.attempts.map(|attempts| attempts.to_string()).unwrap_or_default()),
+        ("hints", word(&rules.hints)),
+        ("audience", word(&rules.audience)),
+        ("practice", on_or_off(rules.practice)),
+        ("grace", number(late.grace as f64 / MINUTE as f64)),
+        ("late until", date(late.until)),
+        ("late percent", number(late.percent)),
+        ("late span", word(&late.span)),
+        ("late floor", number(late.floor)),
+        ("counting", word(&rules.counting)),
+    ]
+}
+
+/// The same of what a homework counts in its course, and who sees it when.
+pub fn described_place(place: &CoursePlace, zone: &TimeZone) -> [(&'static str, String); 2] {
+    let shown = match (place.is_hidden, place.shown_from) {
+        (0, None) => "now".to_owned(),
+        (0, Some(from)) => local_minute(from, zone),
+        _ => "hidden".to_owned(),
+    };
+    [("points", place.points.map(number).unwrap_or_default()), ("shown", shown)]
+}
+
+/// Whether something holds, in the words of the log.
+pub fn on_or_off(holds: bool) -> String {
+    if holds { "on" } else { "off" }.to_owned()
 }

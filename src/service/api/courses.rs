@@ -7,12 +7,13 @@ use super::refusals::{Errors, NotFound, Refusals};
 use super::schema::time;
 use crate::language::Language;
 use crate::service::Service;
-use crate::service::acts::Detail;
+use crate::service::acts::{Detail, changes};
 use crate::service::course::Course;
 use crate::service::courses;
 use crate::service::errors::Problem;
 use crate::service::identity::{Teacher, course_link, renew_course_secret};
-use crate::service::store::StaffRole;
+use crate::service::rules::on_or_off;
+use crate::service::store::{StaffRole, word};
 use axum::Json;
 use axum::extract::State as Shared;
 use axum::extract::rejection::JsonRejection;
@@ -148,6 +149,19 @@ pub(super) struct CourseJson {
     link: Option<String>,
 }
 
+impl CourseJson {
+    /// In the words of the log of acts. The title is last: it says whatever somebody wrote.
+    fn described(&self) -> [(&'static str, String); 5] {
+        [
+            ("zone", self.zone.clone()),
+            ("language", word(&self.language)),
+            ("pseudonyms", on_or_off(self.pseudonyms)),
+            ("archived", on_or_off(self.is_archived)),
+            ("title", self.title.clone()),
+        ]
+    }
+}
+
 async fn course_json(service: &Service, teacher: &Teacher, headers: &HeaderMap) -> Result<CourseJson, Problem> {
     let course = service.store.course().await?;
     Ok(CourseJson {
@@ -194,7 +208,7 @@ pub(super) async fn change(
     check_course(&caller, &service, StaffRole::Lecturer)?;
     let Json(patch) = patch.map_err(other)?;
     let before = course_json(&service, &caller.0, &caller.1).await?;
-    let (was_archived, link) = (before.is_archived, before.link.clone());
+    let (was_archived, link, said) = (before.is_archived, before.link.clone(), before.described());
     let after: CourseJson = patched(&before, &patch)?;
     if after.is_archived != was_archived {
         caller.0.check_role(StaffRole::Administrator)?;
@@ -212,7 +226,7 @@ pub(super) async fn change(
     service.store.set_pseudonyms(after.pseudonyms).await?;
     service.store.set_archived(after.is_archived.then(|| service.clock.now())).await?;
     let json = course_json(&service, &caller.0, &caller.1).await?;
-    Ok(Detail::of(patch.to_string()).on(Json(json).into_response()))
+    Ok(Detail::of(changes(&said, &json.described())).on(Json(json).into_response()))
 }
 
 /// Make a new course link

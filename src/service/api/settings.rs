@@ -6,7 +6,7 @@ use super::members::{self, patched};
 use super::refusals::{Errors, NotFound, Refusals};
 use crate::diagnose::Hints;
 use crate::language::Text;
-use crate::service::acts::Detail;
+use crate::service::acts::{Detail, changes};
 use crate::service::clock::Millis;
 use crate::service::counting::Counting;
 use crate::service::courses;
@@ -175,12 +175,17 @@ pub(super) async fn change(
     let state = service.homework_of(&id)?;
     caller.0.check(&id)?;
     let Json(patch) = patch.map_err(other)?;
+    let zone = state.store.course().await?.zone().clone();
+    let said = |rules: &AssignmentSettings, place: &CoursePlace| {
+        [rules::described(rules, &zone).as_slice(), &rules::described_place(place, &zone)].concat()
+    };
     let (rules, place) = standing(&state).await?;
+    let before = said(&rules, &place);
     let (rules, place) = patched(&SettingsJson::of(&rules, &place), &patch)?.read(rules, place)?;
     state.store.set_assignment(&rules).await?;
     state.store.set_places(std::slice::from_ref(&place)).await?;
     let json = Json(SettingsJson::of(&rules, &place));
-    Ok(Detail { assignment: Some(id), ..Detail::of(patch.to_string()) }.on(json.into_response()))
+    Ok(Detail { assignment: Some(id), ..Detail::of(changes(&before, &said(&rules, &place))) }.on(json.into_response()))
 }
 
 fn plan_json(service: &Service) -> PlanJson {
@@ -216,7 +221,8 @@ pub(super) async fn set_plan(
 ) -> Result<Response, Problem> {
     check_course(&caller, &service, StaffRole::Lecturer)?;
     let wish: PlanJson = members::read(wish)?;
+    let order = || [("order", service.ids().join(" "))];
+    let before = order();
     courses::arrange(&service, &wish.assignments).await?;
-    let plan = plan_json(&service);
-    Ok(Detail::of(plan.assignments.join(", ")).on(Json(plan).into_response()))
+    Ok(Detail::of(changes(&before, &order())).on(Json(plan_json(&service)).into_response()))
 }

@@ -5,9 +5,10 @@ use super::caller::{Caller, check_course, check_reader};
 use super::members::{patched, read};
 use super::refusals::{Errors, NotFound, Refusals};
 use crate::service::Service;
-use crate::service::acts::Detail;
+use crate::service::acts::{Detail, changes};
 use crate::service::errors::Problem;
 use crate::service::identity::{self, Teacher, check_may_manage};
+use crate::service::rules::on_or_off;
 use crate::service::store::{StaffMember, StaffRole, word};
 use axum::Json;
 use axum::extract::rejection::JsonRejection;
@@ -146,7 +147,9 @@ pub(super) async fn change(
         check_may_manage(&caller.0, role)?;
     }
     identity::set_staff(&service, &member, role, is_active).await?;
-    let detail = Detail::of(format!("{} {patch}", member.login));
+    let said = |role: StaffRole, is_active: bool| [("role", word(&role)), ("login", on_or_off(is_active))];
+    let changes = changes(&said(member.role, member.is_active), &said(role, is_active));
+    let detail = Detail::of(format!("{} {changes}", member.login));
     Ok(detail.on(Json(json(StaffMember { role, is_active, ..member }, None)).into_response()))
 }
 

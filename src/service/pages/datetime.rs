@@ -50,12 +50,6 @@ fn local(at: Millis, zone: &TimeZone) -> Zoned {
     Timestamp::from_millisecond(at).unwrap_or_default().to_zoned(zone.clone())
 }
 
-/// The value of a `datetime-local` field.
-pub(super) fn field(at: Millis, zone: &TimeZone) -> String {
-    let timestamp = Timestamp::from_millisecond(at).unwrap_or_default();
-    timestamp.to_zoned(zone.clone()).strftime("%Y-%m-%dT%H:%M").to_string()
-}
-
 /// What a `datetime-local` field holds: none where it is empty, an error where it is no date.
 pub(super) fn parse(field: &str, zone: &TimeZone) -> Result<Option<Millis>, jiff::Error> {
     if field.trim().is_empty() {
@@ -68,6 +62,7 @@ pub(super) fn parse(field: &str, zone: &TimeZone) -> Result<Option<Millis>, jiff
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::service::clock::local_minute;
     use crate::service::course::Course;
 
     /// 2026-11-21T13:05:00Z; Tokyo is nine hours ahead, New York five behind.
@@ -96,10 +91,10 @@ mod tests {
     #[test]
     fn a_field_comes_back_as_it_was() {
         for zone in [zone("Asia/Tokyo"), zone("America/New_York")] {
-            assert_eq!(parse(&field(AT, &zone), &zone).expect("a date"), Some(AT));
+            assert_eq!(parse(&local_minute(AT, &zone), &zone).expect("a date"), Some(AT));
             assert_eq!(parse(" ", &zone).expect("nothing"), None);
             assert!(parse("tomorrow", &zone).is_err());
         }
-        assert_eq!(field(AT, &zone("Asia/Tokyo")), "2026-11-21T22:05");
+        assert_eq!(local_minute(AT, &zone("Asia/Tokyo")), "2026-11-21T22:05");
     }
 }

@@ -1,13 +1,15 @@
-//! What is said of a course that a program sets up: what is wrong with what it sent, in both languages.
+//! What is said of a course that a program sets up: what is wrong with what it sent, and the log, in both languages.
 
-use super::{api, bench};
+use super::{api, bench, done};
 use crate::bench::TEACHER;
 use crate::cluster::Database;
 use crate::on_both;
+use crate::roster::{form, get};
 use axum::http::{Method, StatusCode};
+use ggrade::service::store::{StaffMember, StaffRole};
 use serde_json::{Value, json};
 
-on_both!(a_refusal_names_the_member_and_what_it_takes,);
+on_both!(a_refusal_names_the_member_and_what_it_takes, the_log_says_what_changed_and_from_what,);
 
 async fn a_refusal_names_the_member_and_what_it_takes(database: Database) {
     let bench = bench(database).await;
@@ -81,5 +83,43 @@ async fn a_refusal_names_the_member_and_what_it_takes(database: Database) {
     }
     let unknown = detail(&patch, settings, &json!({ "due": null }), "en").await;
     assert!(unknown.starts_with("There is no `due` here. There are `opens_at`, `due_at`, "), "{unknown}");
+    bench.finish().await;
+}
+
+async fn the_log_says_what_changed_and_from_what(database: Database) {
+    let bench = bench(database).await;
+    let settings = "/api/v1/assignments/ggsample06/settings";
+    let rules = json!({ "due_at": "2030-06-01T00:00:00Z", "attempts": 3, "hints": "none", "points": 40 });
+    done(&bench, Method::PATCH, settings, rules).await;
+    done(&bench, Method::PATCH, "/api/v1/course", json!({ "language": "en", "title": "Graphics, full" })).await;
+    form(&bench, "/teacher/plan", "points.ggsample06=&seen.ggsample06=hidden").await;
+    let assistant = StaffMember {
+        id: "ta".into(),
+        login: "ta".into(),
+        name: "TA".into(),
+        role: StaffRole::Assistant,
+        has_password: false,
+        is_active: true,
+    };
+    assert!(bench.state.store.add_staff(&assistant, 0).await.expect("a store"));
+    done(&bench, Method::PATCH, "/api/v1/staff/ta", json!({ "role": "lecturer", "is_active": false })).await;
+    let lines = async |language: &str| {
+        let all = get(&bench, &format!("/teacher/log?lang={language}")).await.all(".people tbody td.mistakes");
+        all.into_iter().rev().collect::<Vec<_>>()
+    };
+    let en = [
+        "closes: – → 2030-06-01T09:00, attempts: – → 3, hints: full → none, points: – → 40",
+        "language: ja → en, title: – → Graphics, full",
+        "ggsample06 points: 40 → –, ggsample06 shown: now → hidden",
+        "ta role: assistant → lecturer, login: on → off",
+    ];
+    assert_eq!(lines("en").await, en);
+    let ja = [
+        "締切: – → 2030-06-01T09:00、提出回数: – → 3、ヒント: 行まで → なし、配点: – → 40",
+        "言語: 日本語 → 英語、授業名: – → Graphics, full",
+        "ggsample06 配点: 40 → –、ggsample06 公開: 公開中 → 非公開",
+        "ta 権限: アシスタント → 担当教員、ログイン: オン → オフ",
+    ];
+    assert_eq!(lines("ja").await, ja);
     bench.finish().await;
 }

@@ -1,7 +1,7 @@
 //! What one student has handed in.
 
 use super::super::attempts::{Attempt, CountingChoice};
-use super::super::datetime::{self, TimeElement};
+use super::super::datetime::TimeElement;
 use super::super::frame::PageFrame;
 use super::super::shown;
 use super::Tab;
@@ -10,6 +10,7 @@ use super::table::titled;
 use crate::service::State;
 use crate::service::acts::Detail;
 use crate::service::classes::people;
+use crate::service::clock::local_minute;
 use crate::service::counting;
 use crate::service::errors::Problem;
 use crate::service::identity::{LecturerPage, Teacher, TeacherPage};
@@ -114,7 +115,7 @@ async fn deadline(
     let kept = state.store.extension(id, &Beneficiary::Student(student.id.clone())).await?;
     let (own, reason, problem) = match (typed, kept) {
         (Some((asked, wrong)), _) => (asked.closes, asked.reason, Some(wrong)),
-        (None, Some(kept)) => (datetime::field(kept.closes_at, frame.course.zone()), kept.reason, None),
+        (None, Some(kept)) => (local_minute(kept.closes_at, frame.course.zone()), kept.reason, None),
         (None, None) => (String::new(), String::new(), None),
     };
     Ok(Some(Deadline { of_class: frame.deadline(closes), student: student.id, own, reason, problem }))

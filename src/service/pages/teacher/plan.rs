@@ -6,7 +6,8 @@ use super::super::shown;
 use super::{Tab, refused};
 use crate::report::text::number;
 use crate::sandbox::MOST_ASSIGNMENTS;
-use crate::service::acts::Detail;
+use crate::service::acts::{Detail, changes};
+use crate::service::clock::local_minute;
 use crate::service::courses;
 use crate::service::errors::Problem;
 use crate::service::identity::{LecturerPage, Teacher};
@@ -80,7 +81,7 @@ fn line(
         points: given("points", place.and_then(|place| place.points).map(number).unwrap_or_default()),
         most: number(state.assignment.max_score()),
         seen: given("seen", seen.to_owned()),
-        from: given("from", shown_from.map(|at| datetime::field(at, frame.course.zone())).unwrap_or_default()),
+        from: given("from", shown_from.map(|at| local_minute(at, frame.course.zone())).unwrap_or_default()),
         can_leave: service.is_beside() && service.named_as(&id).is_some(),
         id,
     }
@@ -147,16 +148,33 @@ pub(in crate::service::pages) async fn save(
     }
     match places(&service, &frame, &fields, &added).await? {
         Ok(places) => {
+            let before = described(&service, &frame, &places, service.store.places().await?);
             service.store.set_places(&places).await?;
             courses::changed(&service).await?;
-            let order: Vec<String> = service.ids();
-            Ok(Detail::of(order.join(", ")).on(Redirect::to("/teacher/plan").into_response()))
+            let after = described(&service, &frame, &places, service.store.places().await?);
+            Ok(Detail::of(changes(&before, &after)).on(Redirect::to("/teacher/plan").into_response()))
         }
         Err(wrong) => {
             let page = view(&service, frame, &teacher, &fields, Some(wrong)).await?;
             Ok(refused(page, StatusCode::UNPROCESSABLE_ENTITY))
         }
     }
+}
+
+/// The order of the course, and these homeworks in it as `known` has them, in the words of the log of acts.
+fn described(
+    service: &Service,
+    frame: &PageFrame,
+    homeworks: &[CoursePlace],
+    known: Vec<CoursePlace>,
+) -> Vec<(String, String)> {
+    let mut said = vec![("order".to_owned(), service.ids().join(" "))];
+    for homework in homeworks {
+        let place = known.iter().find(|place| place.id == homework.id).unwrap_or(homework);
+        let of_place = rules::described_place(place, frame.course.zone());
+        said.extend(of_place.map(|(name, value)| (format!("{} {name}", homework.id), value)));
+    }
+    said
 }
 
 /// What the form makes of the course's homeworks: those that it has in their new order, and then those that were added.

@@ -10,10 +10,11 @@ use super::login::CsrfForm;
 use super::refused;
 use crate::language::Language;
 use crate::service::State;
-use crate::service::acts::Detail;
+use crate::service::acts::{Detail, changes};
 use crate::service::course::{Course, zone_names};
 use crate::service::errors::Problem;
 use crate::service::identity::{self, LecturerPage, Teacher};
+use crate::service::rules::described;
 use crate::service::store::StudentRecord;
 use askama::Template;
 use axum::Form;
@@ -181,12 +182,13 @@ pub(in crate::service::pages) async fn save(
 ) -> Result<Response, Problem> {
     teacher.check_csrf(&state, &rules.csrf)?;
     let before = state.store.assignment(&state.assignment.id).await?;
-    let was = RulesForm::of(&before, &frame.course);
+    let zone = frame.course.zone();
+    let was = described(&before, zone);
     match rules.read(&frame, before) {
         Ok(settings) => {
             state.store.set_assignment(&settings).await?;
             let answer = Redirect::to(&format!("{}/settings?done=saved", frame.teacher())).into_response();
-            Ok(Detail::of(rules.changes_from(&was)).on(answer))
+            Ok(Detail::of(changes(&was, &described(&settings, zone))).on(answer))
         }
         Err(wrong) => {
             let said = SettingsNotice { rules: Some(wrong), ..SettingsNotice::default() };
@@ -211,7 +213,7 @@ pub(in crate::service::pages) async fn save_course(
         Ok(course) => {
             state.store.set_course(&course).await?;
             let answer = Redirect::to(&format!("{}/settings?done=saved", frame.teacher())).into_response();
-            Ok(Detail::of(format!("{}, {}", fields.zone, fields.language)).on(answer))
+            Ok(Detail::of(changes(&frame.course.described(), &course.described())).on(answer))
         }
         Err(wrong) => {
             let said = SettingsNotice { course: Some(wrong), ..SettingsNotice::default() };

@@ -1,9 +1,10 @@
 //! The words of a line's detail in Japanese. The log keeps them in no language: names of settings, roles, actions.
 
 /// The acts whose detail is made of such words; others have what somebody wrote.
-const ACTS: [&str; 8] = ["settings", "course", "courses", "person", "person-added", "pseudonyms", "folder", "deleted"];
+const ACTS: [&str; 10] =
+    ["settings", "course", "courses", "plan", "person", "person-added", "platform", "pseudonyms", "folder", "deleted"];
 
-const WORDS: [(&str, &str); 42] = [
+const WORDS: [(&str, &str); 56] = [
     ("opens", "受付開始"),
     ("closes", "締切"),
     ("attempts", "提出回数"),
@@ -16,6 +17,20 @@ const WORDS: [(&str, &str); 42] = [
     ("late span", "減点の単位"),
     ("late floor", "減点後の下限（%）"),
     ("counting", "成績に反映する提出"),
+    ("points", "配点"),
+    ("shown", "公開"),
+    ("now", "公開中"),
+    ("hidden", "非公開"),
+    ("order", "順序"),
+    ("zone", "タイムゾーン"),
+    ("language", "言語"),
+    ("title", "授業名"),
+    ("archived", "アーカイブ"),
+    ("role", "権限"),
+    ("login", "ログイン"),
+    ("add", "追加"),
+    ("approve", "承認"),
+    ("connect", "結び付け"),
     ("number", "学籍番号を登録した人"),
     ("none", "なし"),
     ("gentle", "式まで"),
@@ -61,9 +76,14 @@ pub(super) fn in_japanese(act: &str, detail: &str) -> String {
     if !ACTS.contains(&act) {
         return detail.to_owned();
     }
+    // A title is what somebody wrote, to the end of the line.
+    let (ours, title) = match detail.split_once("title: ").filter(|_| act == "course") {
+        Some((ours, title)) => (ours, format!("{}: {title}", known(act, "title"))),
+        None => (detail, String::new()),
+    };
     let values = |piece: &str| piece.split(" → ").map(|value| known(act, value)).collect::<Vec<_>>().join(" → ");
     let part = |part: &str| part.split(": ").map(values).collect::<Vec<_>>().join(": ");
-    detail.split(", ").map(part).collect::<Vec<_>>().join("、")
+    ours.split(", ").map(part).collect::<Vec<_>>().join("、") + &title
 }
 
 fn known(act: &str, piece: &str) -> String {
@@ -100,6 +120,13 @@ mod tests {
             in_japanese("deleted", "student: 2 submissions with their reports and pictures, 1 draft"),
             "学生: 提出（レポートと画像を含む） 2 件、下書き 1 件"
         );
+        assert_eq!(in_japanese("course", "language: ja → en, title: – → now"), "言語: 日本語 → 英語、授業名: – → now");
+        assert_eq!(
+            in_japanese("plan", "order: a b → b a, waves points: – → 40, waves shown: now → hidden"),
+            "順序: a b → b a、waves 配点: – → 40、waves 公開: 公開中 → 非公開"
+        );
+        assert_eq!(in_japanese("person", "taro role: assistant → lecturer"), "taro 権限: アシスタント → 担当教員");
+        assert_eq!(in_japanese("platform", "add https://lms.example 7"), "追加 https://lms.example 7");
         assert_eq!(in_japanese("person-added", "taro assistant"), "taro アシスタント");
         assert_eq!(in_japanese("comment", "a.vert:3: on, off"), "a.vert:3: on, off");
     }

@@ -4,7 +4,7 @@ use super::super::super::datetime;
 use super::super::super::frame::PageFrame;
 use crate::diagnose::Hints;
 use crate::report::text::number;
-use crate::service::clock::Millis;
+use crate::service::clock::{Millis, local_minute};
 use crate::service::counting::Counting;
 use crate::service::course::Course;
 use crate::service::rules::{self, MINUTE};
@@ -43,7 +43,7 @@ pub(in crate::service::pages) struct LateFields {
 impl RulesForm {
     /// The form as it stands for these settings.
     pub(super) fn of(settings: &AssignmentSettings, course: &Course) -> Self {
-        let date = |at: Option<_>| at.map(|at| datetime::field(at, course.zone())).unwrap_or_default();
+        let date = |at: Option<_>| at.map(|at| local_minute(at, course.zone())).unwrap_or_default();
         Self {
             csrf: String::new(),
             opens: date(settings.opens_at),
@@ -61,28 +61,6 @@ impl RulesForm {
             },
             counting: word(&settings.counting),
         }
-    }
-
-    /// What differs from a form as it stood before, for the log of acts.
-    pub(super) fn changes_from(&self, before: &Self) -> String {
-        let pairs = [
-            ("opens", &before.opens, &self.opens),
-            ("closes", &before.closes, &self.closes),
-            ("attempts", &before.attempts, &self.attempts),
-            ("hints", &before.hints, &self.hints),
-            ("audience", &before.audience, &self.audience),
-            ("practice", &before.practice, &self.practice),
-            ("grace", &before.late.grace, &self.late.grace),
-            ("late until", &before.late.late_until, &self.late.late_until),
-            ("late percent", &before.late.late_percent, &self.late.late_percent),
-            ("late span", &before.late.late_span, &self.late.late_span),
-            ("late floor", &before.late.late_floor, &self.late.late_floor),
-            ("counting", &before.counting, &self.counting),
-        ];
-        let shown = |text: &String| if text.trim().is_empty() { "–".to_owned() } else { text.trim().to_owned() };
-        let changed = pairs.into_iter().filter(|(_, before, after)| before.trim() != after.trim());
-        let lines = changed.map(|(name, before, after)| format!("{name}: {} → {}", shown(before), shown(after)));
-        lines.collect::<Vec<_>>().join(", ")
     }
 
     /// The settings that the form asks for.
