@@ -1,9 +1,13 @@
 //! What the assignment's program feeds to the shader and takes from it.
 
-use super::blocks::{self, PlacedUniform};
-use super::spirv::{CommonTexture, DeclaredUniform};
-use super::{Shader, Stage, TranslationRefusal};
-use crate::diagnostic::{Diagnostic, DiagnosticStage};
+mod check;
+
+pub(super) use check::{check, unset_uniform};
+
+use super::Stage;
+use super::blocks::PlacedUniform;
+use super::spirv::CommonTexture;
+use crate::diagnostic::Diagnostic;
 use crate::fault::Fault;
 use crate::language::Text;
 use crate::source::Source;
@@ -112,152 +116,6 @@ impl LinkedInterface {
 fn functions(text: &str) -> Vec<String> {
     let all = outline::functions(text).into_iter().map(|function| function.name.text);
     all.filter(|name| name != "main").collect()
-}
-
-impl DeclaredUniform {
-    /// Whether the program sets this part by `path`; an array without an index is its first element.
-    fn is_at(&self, path: &str) -> bool {
-        let is_it = |own: &str| own == path || own.strip_suffix("[0]") == Some(path);
-        is_it(&self.path) || self.own_name().is_some_and(is_it)
-    }
-
-    /// What a member of a block without an instance name goes by; an array of blocks has one.
-    fn own_name(&self) -> Option<&str> {
-        let (block, member) = self.path.split_once('.')?;
-        (self.is_in_block && !block.ends_with(']')).then_some(member)
-    }
-
-    /// Whether it holds what the program passes as a value of this type. A block is filled with bits: whole numbers are the same
-    /// with a sign and without, and truth values are whole numbers there.
-    fn takes(&self, ty: &str) -> bool {
-        let is_filled_alike =
-            self.is_in_block && whole_numbers(ty).is_some_and(|own| whole_numbers(&self.ty) == Some(own));
-        self.ty == ty || is_filled_alike
-    }
-
-    /// The variable as the program sets it, and as it is declared, where one of the two has parts and the other is one
-    /// value.
-    fn other_shape(&self, uniform: &Variable) -> Option<(Variable, &str)> {
-        let shape = |outer: &str, inner: &str| {
-            let rest = inner.strip_prefix(outer)?;
-            match rest.split_once(']').filter(|_| rest.starts_with('[')) {
-                Some((_, element)) if element.starts_with('.') => Some("struct"),
-                Some(_) => Some("array"),
-                None => rest.starts_with('.').then_some("struct"),
-            }
-        };
-        let member = self.own_name();
-        if let Some("struct") = shape(&uniform.name, &self.path) {
-            return Some((uniform.clone(), "struct"));
-        }
-        let own = [Some(self.path.as_str()), member].into_iter().flatten();
-        let (name, whole) = own.filter_map(|own| Some((own, shape(own, &uniform.name)?))).next()?;
-        Some((Variable { name: name.into(), ty: whole.into() }, &self.ty))
-    }
-}
-
-/// Holds what the shader declares against what the program feeds.
-///
-/// # Errors
-/// A uniform or attribute of the program's that the shader declares with a type it cannot be fed with.
-pub(super) fn check(
-    shader: &Shader,
-    source: &Source,
-    interface: &LinkedInterface,
-) -> Result<Vec<Diagnostic>, TranslationRefusal> {
-    let mut errors = Vec::new();
-    let mut notes = Vec::new();
-    let mut noted: Vec<&str> = Vec::new();
-    let is_laid_out = |declared: &&DeclaredUniform| {
-        let root = declared.path.split('.').next().unwrap_or_default();
-        declared.is_in_block && interface.placed.iter().any(|own| own.place.block == root)
-    };
-    for declared in shader.known.declared.iter().filter(|declared| !is_laid_out(declared)) {
-        if let Some(expected) = interface.uniforms.iter().find(|uniform| declared.is_at(&uniform.name)) {
-            if !declared.takes(&expected.ty) {
-                errors.push(wrong_type(source, "uniform", expected, &declared.ty));
-            }
-        } else if let Some((expected, ty)) = interface.uniforms.iter().find_map(|uniform| declared.other_shape(uniform))
-        {
-            errors.push(wrong_type(source, "uniform", &expected, ty));
-        } else if let root = &declared.path[..declared.path.find('[').unwrap_or(declared.path.len())]
-            && !noted.contains(&root)
-            && !interface.uniforms.iter().any(|uniform| is_part_of(&uniform.name, root))
-        {
-            noted.push(root);
-            notes.push(unset_uniform(source, root, interface));
-        }
-    }
-    errors.dedup();
-    let [wrong, others] = blocks::told(&shader.misplaced, source, interface);
-    errors.extend(wrong);
-    notes.extend(others);
-    for unset in &shader.known.unset {
-        match interface.uniforms.iter().find(|uniform| uniform.name == unset.name) {
-            Some(expected) if unset.ty != "block" => errors.push(wrong_type(source, "uniform", expected, unset.ty)),
-            _ => notes.push(unset_uniform(source, &unset.name, interface)),
-        }
-    }
-    for attribute in shader.inputs.iter().filter(|_| shader.stage == super::Stage::Vertex) {
-        let Some(expected) = interface.inputs.iter().find(|input| input.name == attribute.name) else { continue };
-        // A shader may take fewer components than there are, and whole numbers with a sign or without.
-        let is_whole = matches!(attribute.kind, Some(ScalarKind::Sint | ScalarKind::Uint));
-        let is_number = is_whole || attribute.kind == Some(ScalarKind::Float);
-        if !is_number || is_whole != whole_numbers(&expected.ty).is_some() || attribute.width != 4 {
-            errors.push(wrong_type(source, "in", expected, &attribute.ty));
-        }
-    }
-    // Elements of an array are declared in one place, and are wrong together.
-    errors.dedup_by_key(|error| error.line.zip(error.column).ok_or_else(|| error.message.clone()));
-    if errors.is_empty() { Ok(notes) } else { Err(TranslationRefusal::Rejected(errors)) }
-}
-
-/// Whether a path is that of a uniform, or of a part of it.
-fn is_part_of(path: &str, whole: &str) -> bool {
-    path.strip_prefix(whole).is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
-}
-
-/// How many components a type of whole numbers or truth values has; none of another type.
-fn whole_numbers(ty: &str) -> Option<u8> {
-    match ty {
-        "bool" | "int" | "uint" => Some(1),
-        _ => ty.strip_prefix(['b', 'i', 'u'])?.strip_prefix("vec")?.parse().ok(),
-    }
-}
-
-fn wrong_type(source: &Source, qualifier: &str, expected: &Variable, declared: &str) -> Diagnostic {
-    let Variable { name, ty } = expected;
-    let diagnostic = Diagnostic::error(
-        DiagnosticStage::Interface,
-        Text::new(
-            format!("`{name}` is declared as `{declared}`, but the program passes a `{ty}`"),
-            format!("`{name}` が `{declared}` と宣言されていますが、プログラムが渡すのは `{ty}` です"),
-        ),
-    );
-    let diagnostic = place(diagnostic, source, name);
-    if name.contains(['.', '[']) {
-        return diagnostic;
-    }
-    diagnostic.hint(Text::new(
-        format!("The handed-out file declares it as `{qualifier} {ty} {name};`."),
-        format!("配布されたファイルの宣言は `{qualifier} {ty} {name};` です。"),
-    ))
-}
-
-pub(super) fn unset_uniform(source: &Source, name: &str, interface: &LinkedInterface) -> Diagnostic {
-    let known: Vec<_> = interface.uniforms.iter().map(|uniform| format!("`{}`", uniform.name)).collect();
-    let diagnostic = Diagnostic::warning(
-        DiagnosticStage::Interface,
-        Text::new(
-            format!("the program never sets the uniform `{name}`: it keeps its initial value, 0 where there is none"),
-            format!("uniform 変数 `{name}` にはプログラムから値が渡されません。初期値 (なければ 0) のままになります"),
-        ),
-    )
-    .hint(Text::new(
-        format!("The program sets {}.", known.join(", ")),
-        format!("プログラムが値を渡すのは {} です。", known.join("、")),
-    ));
-    place(diagnostic, source, name)
 }
 
 /// Puts the diagnostic at the first place where the code has `name`, or the last name of that path, as a word: its
