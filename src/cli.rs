@@ -25,7 +25,7 @@ pub use watch::WatchArguments;
 use crate::diagnose::Hints;
 use crate::language::Language;
 use crate::render::AdapterKind;
-use crate::sandbox::{IntrusionAttempt, Policy, Settings};
+use crate::sandbox::{DEADLINE_SECONDS, IntrusionAttempt, Policy, Settings};
 use clap::{Args, Parser, Subcommand};
 use std::path::PathBuf;
 
@@ -146,7 +146,7 @@ pub struct GradeArguments {
     #[arg(long)]
     pub cross_check: bool,
     /// Seconds that the grading may take
-    #[arg(long, value_name = "SECONDS", default_value_t = 2.0, env = "GGRADE_DEADLINE")]
+    #[arg(long, value_name = "SECONDS", default_value_t = DEADLINE_SECONDS, env = "GGRADE_DEADLINE")]
     pub deadline: f64,
 }
 

@@ -56,6 +56,10 @@ pub fn driver_settings(adapter: AdapterKind) -> Vec<(&'static str, OsString)> {
 /// needs, since its steps are bounded. To exceed it is our failure.
 const JUDGING: Duration = Duration::from_secs(10);
 
+/// The usual time for one submission, in seconds. A right answer that lights each pixel by four lights, with branches within branches,
+/// is compiled for up to 2.
+pub const DEADLINE_SECONDS: f64 = 4.0;
+
 /// How workers grade.
 #[derive(Clone, Debug)]
 pub struct Settings {
@@ -94,7 +98,7 @@ impl Settings {
             assignment,
             further: Vec::new(),
             adapter: AdapterKind::Software,
-            deadline: Duration::from_secs(2),
+            deadline: Duration::from_secs_f64(DEADLINE_SECONDS),
             cpu_seconds: None,
             memory: 768 << 20,
             gradings_per_worker: 500,

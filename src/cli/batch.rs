@@ -5,6 +5,7 @@ use crate::batch::formats::ClassFormat;
 use crate::batch::shard::Shard;
 use crate::diagnose::Hints;
 use crate::language::Language;
+use crate::sandbox::DEADLINE_SECONDS;
 use clap::{Args, Subcommand};
 use std::path::{Path, PathBuf};
 
@@ -93,7 +94,7 @@ pub struct BatchArguments {
     #[arg(long, value_name = "I/N", requires = "seed", conflicts_with = "anonymous")]
     pub shard: Option<Shard>,
     /// Seconds that a grading may take
-    #[arg(long, value_name = "SECONDS", default_value_t = 2.0)]
+    #[arg(long, value_name = "SECONDS", default_value_t = DEADLINE_SECONDS)]
     pub deadline: f64,
     /// Homework and adapter.
     #[command(flatten)]

@@ -3,6 +3,7 @@
 use super::{MachineArguments, SandboxArguments};
 use crate::diagnose::Hints;
 use crate::language::Language;
+use crate::sandbox::DEADLINE_SECONDS;
 use clap::Args;
 use std::path::PathBuf;
 
@@ -28,6 +29,6 @@ pub struct WatchArguments {
     #[arg(long, value_enum, default_value_t)]
     pub hints: Hints,
     /// Seconds that a grading may take
-    #[arg(long, value_name = "SECONDS", default_value_t = 2.0)]
+    #[arg(long, value_name = "SECONDS", default_value_t = DEADLINE_SECONDS)]
     pub deadline: f64,
 }

@@ -7,8 +7,8 @@ use std::time::{Duration, Instant};
 /// Length of a tick of the kernel's accounting; the same on every Linux that user space sees.
 const TICK: Duration = Duration::from_millis(10);
 
-/// The share of the deadline that a worker must have computed for the time to count as its own. An honest file needs up to two
-/// fifths of it on a slow machine; a loop without an end gets as much unless seven others want the same processor.
+/// The share of the deadline that a worker must have computed for the time to count as its own. An honest file seldom needs
+/// as much; a loop without an end gets as much unless seven others want the same processor.
 const LEAST_SHARE: f64 = 0.75;
 
 /// CPU time of all threads of the process so far.
@@ -22,7 +22,7 @@ fn cpu_time(process: u32) -> Option<Duration> {
 }
 
 /// The time that a worker on a busy machine is waited for, in deadlines.
-const PATIENCE: u32 = 5;
+const PATIENCE: u32 = 3;
 
 /// At least so long a worker is waited for once more.
 const PAUSE: Duration = Duration::from_millis(20);

@@ -7,7 +7,7 @@ use super::store::Location;
 use crate::cli::{LogFormat, ProcessRole, ServeArguments};
 use crate::fault::Fault;
 use crate::language::Text;
-use crate::sandbox::Policy;
+use crate::sandbox::{DEADLINE_SECONDS, Policy};
 use figment::Figment;
 use figment::providers::{Env, Format, Serialized, Toml};
 use serde::{Deserialize, Serialize};
@@ -86,7 +86,7 @@ impl Default for Config {
             workers: std::thread::available_parallelism().map_or(1, usize::from),
             sandbox: Policy::Required,
             single_use_workers: false,
-            deadline: 2.0,
+            deadline: DEADLINE_SECONDS,
             wait: 5.0,
             queue: 64,
             uploads_per_student: 60,
