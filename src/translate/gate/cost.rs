@@ -4,7 +4,7 @@
 //! program: what counts is the size after both.
 
 use super::bounds::MAX_SCALARS;
-use super::weight::{BRANCH, CALL, LOOK_UP, LOOP, LOOP_IN_LOOP, scalars, weight};
+use super::weight::{BRANCH, CALL, COMPILED_LOOK_UP, LOOK_UP, LOOP, LOOP_IN_LOOP, scalars, weight};
 use crate::translate::LineTable;
 use crate::translate::entry::AttributePart;
 use crate::translate::spirv::OURS;
@@ -23,6 +23,7 @@ pub(in crate::translate) struct Costs {
     scalars: HashMap<Handle<Function>, u64>,
     /// How many loops there are in a call of each.
     loops: HashMap<Handle<Function>, u64>,
+    /// What the entry point costs the driver that compiles it.
     pub(super) of_entry: u64,
     pub(super) scalars_of_entry: u64,
 }
@@ -30,11 +31,17 @@ pub(in crate::translate) struct Costs {
 impl Costs {
     /// Adds up a module. A function stands behind those that it calls, or naga refuses the module.
     pub fn of(module: &Module) -> Self {
+        let of_entry = Self::with(module, COMPILED_LOOK_UP).of_entry;
+        Self { of_entry, ..Self::with(module, LOOK_UP) }
+    }
+
+    /// The same where a lookup costs so much.
+    fn with(module: &Module, look_up: u64) -> Self {
         let mut costs = Self::default();
         for (handle, function) in module.functions.iter() {
             let (operations, scalars) = costs.function(module, function);
             let is_ours = function.name.as_ref().is_some_and(|name| name.ends_with(OURS));
-            let operations = if is_ours { operations.min(LOOK_UP) } else { operations };
+            let operations = if is_ours { operations.min(look_up) } else { operations };
             costs.functions.insert(handle, operations);
             costs.scalars.insert(handle, scalars);
             let loops = CostWalk { module, costs: &costs }.loops(&function.body);
