@@ -12,10 +12,12 @@ mod seen;
 mod shown;
 
 use super::{Probe, ProbeGroup, ProbeSet, Random};
-use crate::equation::{Evaluation, Reads};
+use crate::Assignment;
+use crate::Value;
+use crate::equation::Evaluation;
+use crate::interpreter::WindowCoordinates;
 use crate::pipeline::UniformsOf;
 use crate::scene::{Cull, Vertex};
-use crate::{Assignment, Value};
 pub use across::{Crossings, EdgeDefect};
 use glam::{DQuat, DVec2, DVec3, DVec4};
 pub use handed::linear;
@@ -233,9 +235,17 @@ impl Assignment {
         let (positions, written) = self.handed_by(&pipeline.vertex, UniformsOf::All(&drawn.uniforms), &vertices)?;
         let mut spots = Vec::new();
         let mut shares = Vec::new();
+        // No pixel lies outside, so that an answer may count there as it likes.
+        let is_bounded = pipeline.fragment.inputs().iter().any(|input| WindowCoordinates::of(&input.name).is_some());
+        let is_in_window = |[x, y, ..]: [f64; 4]| {
+            !is_bounded || (0.0..drawn.window[0]).contains(&x) && (0.0..drawn.window[1]).contains(&y)
+        };
         for (number, (corners, weights, cull)) in some.into_iter().enumerate() {
             let ends = [0, 1, 2].map(|corner| positions[3 * number + corner]);
             let Some((weights, place, is_front)) = seen_at(ends, weights, drawn.window, taken) else { continue };
+            if !is_in_window(place) {
+                continue;
+            }
             let [x, y, ..] = place;
             // A triangle without an area has no fragments, and one that begins here has no neighbours before the eye.
             let beside = [[x, y], [x + 1.0, y], [x, y + 1.0]].map(|at| weights_at(ends, at, drawn.window));
@@ -278,24 +288,5 @@ impl Assignment {
             (spot.varyings, spot.varyings_beside) = (values(here), [values(right), values(above)]);
         }
         Some(LocatedSpots { spots, handed })
-    }
-
-    /// What the equation reads at a fragment.
-    fn read_at(&self, at: usize, handed: &FragmentInputs, colour: DVec3, position: DVec4) -> Vec<Value> {
-        match self.equation.reads {
-            Reads::Outputs => vec![Value::from(colour.extend(1.0)), Value::from(position)],
-            Reads::Attributes | Reads::Varyings => {
-                let pipeline = &self.pipeline;
-                let value = |(place, input): (usize, &crate::interpreter::ProgramVariable)| {
-                    let varying = pipeline.varyings.iter().find(|varying| varying.input == place);
-                    let numbers = varying.map_or_else(Vec::new, |varying| {
-                        handed[varying.output].iter().map(|column| column[at]).collect()
-                    });
-                    Value::new(input.kind.clone(), numbers)
-                        .unwrap_or_else(|| Value::of(input.kind.clone(), vec![0.0; input.kind.slots().unwrap_or(0)]))
-                };
-                pipeline.fragment.inputs().iter().enumerate().map(value).collect()
-            }
-        }
     }
 }

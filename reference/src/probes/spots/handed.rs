@@ -1,11 +1,12 @@
 //! What a vertex stage hands over to the fragment stage, mixed between the corners of triangles.
 
 use super::Spot;
+use crate::equation::Reads;
 use crate::interpreter::{Interpolation, Program, ProgramVariable, Scalar};
 use crate::pipeline::{Pipeline, UniformsOf, positions, scalars};
 use crate::scene::Vertex;
 use crate::{Assignment, Value};
-use glam::DVec4;
+use glam::{DVec3, DVec4};
 
 /// What is handed over at each of some fragments: by output of the vertex stage, scalar and fragment.
 pub(crate) type FragmentInputs = Vec<Vec<Vec<f64>>>;
@@ -24,6 +25,25 @@ impl Assignment {
         let outputs = self.run_vertices(program, uniforms, vertices)?;
         let written = (0..program.outputs().len()).map(|place| scalars(&outputs, place)).collect();
         Some((positions(&outputs, vertices.len()), written))
+    }
+
+    /// What the equation reads at a fragment.
+    pub(super) fn read_at(&self, at: usize, handed: &FragmentInputs, colour: DVec3, position: DVec4) -> Vec<Value> {
+        match self.equation.reads {
+            Reads::Outputs => vec![Value::from(colour.extend(1.0)), Value::from(position)],
+            Reads::Attributes | Reads::Varyings => {
+                let pipeline = &self.pipeline;
+                let value = |(place, input): (usize, &ProgramVariable)| {
+                    let varying = pipeline.varyings.iter().find(|varying| varying.input == place);
+                    let numbers = varying.map_or_else(Vec::new, |varying| {
+                        handed[varying.output].iter().map(|column| column[at]).collect()
+                    });
+                    Value::new(input.kind.clone(), numbers)
+                        .unwrap_or_else(|| Value::of(input.kind.clone(), vec![0.0; input.kind.slots().unwrap_or(0)]))
+                };
+                pipeline.fragment.inputs().iter().enumerate().map(value).collect()
+            }
+        }
     }
 }
 
