@@ -172,7 +172,8 @@ fn overlooked(assignment: &Assignment, sources: &[(Stage, &Source)], linked: &Li
     // What students name themselves may have any name.
     let has_a_name = |uniform: &&ProgramVariable| !assignment.free.iter().any(|free| free.kind == uniform.kind);
     let read = sources.iter().flat_map(|(stage, _)| of_stage(stage)).filter(has_a_name);
-    let roots = read.map(|uniform| root(&uniform.name));
+    // The members of a block may have other names.
+    let roots = read.map(|uniform| uniform.place.as_ref().map_or(root(&uniform.name), |place| &place.block));
     let mut unread: Vec<&str> = roots.filter(|root| !is_named(root)).collect();
     unread.dedup();
     if !unread.is_empty() {
