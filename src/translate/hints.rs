@@ -63,7 +63,7 @@ impl CompilerMessage<'_, '_> {
     /// Whether it follows from `earlier`, wherever that stands.
     pub fn follows_from(&self, earlier: &CompilerMessage<'_, '_>) -> bool {
         let (before, now) = (earlier.entry, self.entry);
-        let undeclared = before.message.starts_with("undeclared identifier") && before.token == now.token;
+        let undeclared = earlier.misses_a_name() && before.token == now.token;
         // The compiler declares a name that it missed, and a declaration further down is then the second.
         let declared_by_that = now.message.starts_with("redefinition") || now.message.starts_with("can't use function");
         (undeclared && declared_by_that)
@@ -73,13 +73,15 @@ impl CompilerMessage<'_, '_> {
             || (before.token == "return" && now.message.contains("does not return a value"))
     }
 
+    /// Whether a name is declared nowhere.
+    pub fn misses_a_name(&self) -> bool {
+        self.entry.message.starts_with("undeclared identifier")
+    }
+
     /// Whether it is about a word as such, so that another mistake in the same statement is no reason for it.
     pub fn stands_alone(&self) -> bool {
         let message = self.entry.message;
-        message.starts_with("undeclared identifier")
-            || message.starts_with("Reserved word")
-            || self.unknown_function
-            || self.is_alien()
+        self.misses_a_name() || message.starts_with("Reserved word") || self.unknown_function || self.is_alien()
     }
 
     /// Whether it is about something that GLSL does not have at all.

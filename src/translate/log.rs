@@ -143,6 +143,8 @@ fn causes<'f, 'e, 'a>(
             kept.push(finding);
         }
         tainted.extend(hints::declared_in_statement(file, finding));
+        // From then on the compiler takes a name that it missed for a number.
+        tainted.extend(finding.misses_a_name().then_some(finding.entry.token));
     }
     kept
 }

@@ -241,6 +241,14 @@ fn a_semicolon_that_ends_nothing_is_a_warning() {
     assert_eq!((all.len(), all[0].severity, all[0].line.zip(all[0].column)), (1, Severity::Warning, place));
 }
 
+/// From where a name is missed on, the compiler takes it for a number.
+#[test]
+fn what_follows_from_a_missing_name_is_not_said() {
+    let (text, _) = broken("  float cosine = ", "  vec3 own = lamp.xyz;\n  float cosine = lamp.w + own.z + ");
+    let said: Vec<String> = diagnostics(&text).into_iter().map(|one| one.message.en).collect();
+    assert_eq!(said, ["`lamp` is not declared."]);
+}
+
 #[test]
 fn old_words_that_drivers_still_take_are_warnings() {
     let (text, _) = broken("in vec4 nv;", "attribute vec4 nv;");
