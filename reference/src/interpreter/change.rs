@@ -9,6 +9,7 @@ mod leaves;
 mod programs;
 mod repairs;
 mod tree;
+mod types;
 mod wrappers;
 mod write;
 

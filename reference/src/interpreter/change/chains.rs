@@ -34,10 +34,10 @@ pub(super) fn changes(place: &ExpressionPlace<'_>, scope: &mut NameScope<'_>, fo
 /// What may stand in place of an operator.
 fn instead_of(operator: Binary) -> &'static [Binary] {
     match operator {
-        Binary::Add => &[Binary::Subtract, Binary::Multiply],
-        Binary::Subtract => &[Binary::Add, Binary::Multiply],
+        Binary::Add => &[Binary::Subtract, Binary::Multiply, Binary::Divide],
+        Binary::Subtract => &[Binary::Add, Binary::Multiply, Binary::Divide],
         Binary::Multiply => &[Binary::Add, Binary::Divide, Binary::Subtract],
-        Binary::Divide => &[Binary::Multiply, Binary::Subtract],
+        Binary::Divide => &[Binary::Multiply, Binary::Subtract, Binary::Add],
         Binary::Less => &[Binary::Greater, Binary::GreaterEqual],
         Binary::Greater => &[Binary::Less, Binary::LessEqual],
         Binary::LessEqual => &[Binary::Greater, Binary::Less],

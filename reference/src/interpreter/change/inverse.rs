@@ -28,7 +28,8 @@ pub(super) fn mistake_of(root: &Expression, change: &Change) -> Operator {
         }
         Operator::AddedTwice => Operator::AddendLeftOut,
         Operator::Squared | Operator::Times => Operator::FactorLeftOut,
-        Operator::Absolute | Operator::Raised | Operator::Root => Operator::CallLeftOut,
+        Operator::Absolute | Operator::Root => Operator::CallLeftOut,
+        Operator::Raised => Operator::Otherwise,
         Operator::Clamped => Operator::ClampLeftOut,
         Operator::Normalized => Operator::NormalizeLeftOut,
         Operator::Gated => Operator::StatementLeftOut,

@@ -8,9 +8,9 @@ use crate::interpreter::types::Type;
 /// Components by their number.
 const COMPONENTS: [&str; 4] = ["x", "y", "z", "w"];
 
-/// Other ways to take three components, and two.
-const OF_THREE: [&str; 5] = ["xzy", "yxz", "zyx", "yzx", "zxy"];
-const OF_TWO: [&str; 4] = ["yx", "xz", "yz", "xx"];
+/// Ways to take three components, and two.
+const OF_THREE: [&str; 6] = ["xyz", "xzy", "yxz", "zyx", "yzx", "zxy"];
+const OF_TWO: [&str; 6] = ["xy", "yx", "xz", "zx", "yz", "xx"];
 
 /// Those of names, numbers, components and signs.
 pub(super) fn changes(place: &ExpressionPlace<'_>, scope: &mut NameScope<'_>, found: &mut Vec<Local>) {
@@ -51,8 +51,8 @@ pub(super) fn changes(place: &ExpressionPlace<'_>, scope: &mut NameScope<'_>, fo
             };
             match taken.len() {
                 1 => COMPONENTS[..usize::from(count)].iter().for_each(|name| member(name)),
-                2 => OF_TWO.iter().for_each(|name| member(name)),
-                3 => OF_THREE.iter().for_each(|name| member(name)),
+                2 => OF_TWO.iter().filter(|name| **name != &**taken).for_each(|name| member(name)),
+                3 => OF_THREE.iter().filter(|name| **name != &**taken).for_each(|name| member(name)),
                 _ => {}
             }
         }

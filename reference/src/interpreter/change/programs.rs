@@ -1,10 +1,10 @@
 //! The slips of a program that is no list of definitions: each as a program of its own.
 
 use super::tree::{self, MetAs, TreeWalk, TypedNames, walk};
+use super::types::{DeclaredTypes, KnownTypes, guess, typed};
 use super::{Change, NameScope, Operator, changes, written};
-use crate::interpreter::syntax::{Binary, Expression, ExpressionKind, Item, Name, Statement, StatementKind};
-use crate::interpreter::types::{Scalar, Type};
-use crate::interpreter::{Program, Refusal, Stage, builtin, compile, parse, text};
+use crate::interpreter::syntax::{Expression, ExpressionKind, Item, Name, Statement, StatementKind};
+use crate::interpreter::{Program, Refusal, Stage, compile, parse, text};
 use std::collections::HashSet;
 
 /// A program with a slip in it.
@@ -170,14 +170,11 @@ fn found(items: &[Item], is_part: &dyn Fn(&str) -> bool) -> Vec<PlacedSlip> {
 }
 
 fn changes_of(own: &Expression, names: &TypedNames) -> Vec<Change> {
-    let typed = names.iter().rev().filter_map(|(name, kind)| Some((of_name(name, own.line), Type::named(kind)?)));
-    let typed: Vec<(Expression, Type)> = typed.collect();
-    let mut kind = |expression: &Expression| guess(expression, &typed);
+    let typed = typed(names, own.line);
+    // What its functions and members are is changed where they are given it.
+    let known = KnownTypes { names: &typed, declared: &DeclaredTypes::default() };
+    let mut kind = |expression: &Expression| guess(expression, known);
     changes(own, &mut NameScope { names: &typed, constants: &HashSet::new(), kind: &mut kind, free: false })
-}
-
-pub(super) fn of_name(name: &Name, line: u32) -> Expression {
-    Expression::made(line, ExpressionKind::Name(Name::clone(name)))
 }
 
 /// A statement, as it is told.
@@ -251,48 +248,4 @@ fn with(items: &[Item], slip: &PlacedSlip, is_part: &dyn Fn(&str) -> bool) -> Ve
         },
     );
     items
-}
-
-/// The type of an expression, as far as it is easily seen; the compiler knows better.
-pub(super) fn guess(expression: &Expression, names: &[(Expression, Type)]) -> Option<Type> {
-    match &expression.kind {
-        ExpressionKind::Floating(_, false) => Some(Type::FLOAT),
-        ExpressionKind::Integer(_, false) => Some(Type::INT),
-        ExpressionKind::Name(own) => {
-            let is_it = |name: &Expression| matches!(&name.kind, ExpressionKind::Name(name) if name == own);
-            names.iter().find(|(name, _)| is_it(name)).map(|(_, kind)| kind.clone())
-        }
-        ExpressionKind::Unary(_, of) => guess(of, names),
-        ExpressionKind::Comma(all) => guess(all.last()?, names),
-        ExpressionKind::Conditional(_, yes, _) => guess(yes, names),
-        ExpressionKind::Member(of, taken) => match guess(of, names)? {
-            Type::Vector(scalar, _) => Some(Type::Vector(scalar, u8::try_from(taken.len()).ok()?)),
-            _ => None,
-        },
-        ExpressionKind::Call(name, arguments) => {
-            let own = Type::named(name);
-            let of = |place: usize| guess(arguments.get(place)?, names);
-            own.or_else(|| match &**name {
-                "dot" | "length" | "distance" => Some(Type::FLOAT),
-                "texture" => Some(Type::VEC4),
-                "step" => of(1),
-                "smoothstep" => of(2),
-                name => builtin::signatures(name).first().and_then(|_| of(0)),
-            })
-        }
-        ExpressionKind::Chain(first, others) => {
-            if others.iter().any(|(operator, ..)| !is_arithmetic(*operator)) {
-                return Some(Type::BOOL);
-            }
-            let kinds = std::iter::once(&**first).chain(others.iter().map(|(_, _, other)| other));
-            let kinds: Vec<Type> = kinds.map(|operand| guess(operand, names)).collect::<Option<_>>()?;
-            let is_vector = |kind: &&Type| matches!(kind, Type::Vector(Scalar::Float, count) if *count > 1);
-            kinds.iter().rfind(is_vector).or(kinds.first()).cloned()
-        }
-        _ => None,
-    }
-}
-
-fn is_arithmetic(operator: Binary) -> bool {
-    matches!(operator, Binary::Add | Binary::Subtract | Binary::Multiply | Binary::Divide | Binary::Remainder)
 }

@@ -8,8 +8,10 @@ use crate::interpreter::types::Type;
 /// Those of a value, whatever it is.
 pub(super) fn changes(place: &ExpressionPlace<'_>, scope: &mut NameScope<'_>, found: &mut Vec<Local>) {
     let own = place.own;
-    let is_bracket = matches!(&own.kind, ExpressionKind::Comma(_) | ExpressionKind::Assign(..));
-    if is_literal(own) && !place.is_root() || is_bracket {
+    // A column or an element is taken as it is.
+    let is_taken =
+        matches!(&own.kind, ExpressionKind::Comma(_) | ExpressionKind::Assign(..) | ExpressionKind::Index(..));
+    if is_literal(own) && !place.is_root() || is_taken {
         return;
     }
     let kind = (scope.kind)(own);

@@ -17,7 +17,10 @@ impl Search<'_, '_> {
     /// A text of the right answer, with the student's names for what the student calls otherwise.
     fn in_their_names(&self, stage: Stage, text: &str) -> String {
         let own = self.texts(stage).map(|(_, source)| source);
-        let is_free = |right: &str, own: &str| !source::words(text).any(|(_, word)| word == own) && right != own;
+        // A member of a block is no word, which alone can be declared.
+        let is_word = |own: &str| !own.contains('.');
+        let is_free =
+            |right: &str, own: &str| is_word(own) && !source::words(text).any(|(_, word)| word == own) && right != own;
         let mut names = self.names_alike(stage);
         names.retain(|(right, _)| !own.is_some_and(|own| own.words().any(|(_, word)| word == right)));
         names.retain(|(right, own)| is_free(right, own));

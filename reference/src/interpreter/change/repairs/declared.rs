@@ -1,11 +1,13 @@
 //! What a program declares outside of its functions, as far as a repair asks.
 
+use super::super::types::DeclaredTypes;
 use crate::interpreter::Stage;
 use crate::interpreter::syntax::{BaseType, Declaration, Item, Name, StorageQualifier, TypeName};
 use std::collections::HashSet;
 
 #[derive(Clone, Debug)]
 pub(super) struct Declared {
+    pub types: DeclaredTypes,
     /// The members of its structures.
     pub members: Vec<Name>,
     /// What the scene gives it: no line of the text makes it.
@@ -35,7 +37,11 @@ impl Declared {
             _ => false,
         };
         let given = declarations().filter(is_given).flat_map(|declaration| &declaration.variables);
-        Self { members, inputs: given.map(|variable| Name::clone(&variable.name)).collect() }
+        Self {
+            types: DeclaredTypes::of(items),
+            members,
+            inputs: given.map(|variable| Name::clone(&variable.name)).collect(),
+        }
     }
 
     pub fn is_input(&self, name: &Name) -> bool {

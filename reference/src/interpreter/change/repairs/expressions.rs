@@ -1,8 +1,8 @@
 //! The changes of an expression.
 
 use super::super::inverse::mistake_of;
-use super::super::programs::{guess, of_name};
-use super::super::tree::{ExpressionPlace, Path, TypedNames, paths};
+use super::super::tree::{ExpressionPlace, Path, TypedNames, operands, paths};
+use super::super::types::{KnownTypes, guess, typed};
 use super::super::{Change, NameScope, Operator, bare, calls, changes, written};
 use super::copies::place;
 use super::declared::Declared;
@@ -21,9 +21,8 @@ pub(super) fn of_expression(
     right: &Ingredients,
     declared: &Declared,
 ) -> Vec<(u32, ProgramRepair)> {
-    let known = names.iter().rev().filter_map(|(name, kind)| Some((of_name(name, own.line), Type::named(kind)?)));
-    let typed: Vec<(Expression, Type)> = known.collect();
-    let theirs = &typed;
+    let typed = typed(names, own.line);
+    let theirs = KnownTypes { names: &typed, declared: &declared.types };
     let mut kind = |expression: &Expression| guess(expression, theirs);
     let scope = &mut NameScope { names: &typed, constants: &HashSet::new(), kind: &mut kind, free: false };
     let slips = changes(own, scope).into_iter().filter(|change| change.operator != Operator::WholeNumbers);
@@ -39,7 +38,7 @@ pub(super) fn of_expression(
         });
         found.extend(undone.map(|repair| (place.own.at, repair)));
         let Some(kind) = guess(place.own, theirs) else { continue };
-        let added = right.changes(&place, &kind, theirs).into_iter().map(|added| ProgramRepair {
+        let added = right.changes(&place, &kind, &typed).into_iter().map(|added| ProgramRepair {
             line: place.own.line,
             is_bound_by_zero: added.is_bound_by_zero,
             added: added.name,
@@ -75,7 +74,9 @@ fn repair(
     is_use: bool,
 ) -> ProgramRepair {
     let texts = [written(before), written(&after)];
-    let is_of_use = is_use && !is_substitute(mistake);
+    // What a result is kept from is a matter of the function that gives it.
+    let is_kept = mistake <= Operator::CallLeftOut && has_own_call(before);
+    let is_of_use = is_kept || is_use && !is_substitute(mistake);
     let line = line_of(before, &after);
     let place = Where::Expressions(vec![(number, path.clone(), after)]);
     ProgramRepair { is_of_use, ..ProgramRepair::slip(mistake, line, texts, place) }
@@ -87,6 +88,16 @@ fn is_use(own: &Expression, declared: &Declared) -> bool {
         ExpressionKind::Name(name) => !declared.is_input(name),
         ExpressionKind::Member(of, _) | ExpressionKind::Index(of, _) => is_use(of, declared),
         ExpressionKind::Call(name, _) => Type::named(name).is_none() && !is_builtin(name),
+        _ => false,
+    }
+}
+
+/// Whether the result of a function of the text is a part of a sum or a product.
+fn has_own_call(own: &Expression) -> bool {
+    let own = bare(own);
+    match &own.kind {
+        ExpressionKind::Call(name, _) => Type::named(name).is_none() && !is_builtin(name),
+        ExpressionKind::Chain(..) => operands(own).into_iter().any(has_own_call),
         _ => false,
     }
 }

@@ -1,7 +1,7 @@
 //! What a right answer is made of, so that it can stand in another program.
 
-use super::super::programs::{guess, of_name};
 use super::super::tree::{ExpressionPlace, MetAs, TreeWalk, paths, walk, with};
+use super::super::types::{DeclaredTypes, KnownTypes, guess, of_name, typed};
 use super::super::{Operator, bare, calls, floats, is_literal, written};
 use super::inlined::{bracketed, inlined, is_everywhere};
 use crate::interpreter::syntax::{BaseType, Binary, Expression, ExpressionKind, Item, Name, StatementKind};
@@ -110,6 +110,7 @@ impl Ingredients {
                 }
             }
         }
+        let declared = DeclaredTypes::of(&items);
         walk(
             &mut items,
             &mut TreeWalk {
@@ -120,18 +121,16 @@ impl Ingredients {
                     if matches!(met, MetAs::Bound) {
                         return;
                     }
-                    let typed = names.iter().rev();
-                    let typed: Vec<(Expression, Type)> =
-                        typed.filter_map(|(name, kind)| Some((of_name(name, own.line), Type::named(kind)?))).collect();
+                    let known = KnownTypes { names: &typed(names, own.line), declared: &declared };
                     for path in paths(own) {
-                        self.of_place(ExpressionPlace::of(own, &path).own, &typed, &given);
+                        self.of_place(ExpressionPlace::of(own, &path).own, known, &given);
                     }
                 },
             },
         );
     }
 
-    fn of_place(&mut self, own: &Expression, typed: &[(Expression, Type)], given: &HashSet<Name>) {
+    fn of_place(&mut self, own: &Expression, known: KnownTypes<'_>, given: &HashSet<Name>) {
         match &own.kind {
             ExpressionKind::Floating(number, _) => self.numbers.push(*number),
             ExpressionKind::Chain(_, others) => {
@@ -147,12 +146,12 @@ impl Ingredients {
                 };
                 for (hole, argument) in arguments.iter().enumerate() {
                     let mut others = arguments.iter().enumerate().filter(|(at, _)| *at != hole);
-                    let Some(kind) = guess(argument, typed) else { continue };
+                    let Some(kind) = guess(argument, known) else { continue };
                     if is_literal(argument) || !others.all(|(_, other)| is_given(other)) {
                         continue;
                     }
                     // What goes in comes out.
-                    if guess(own, typed).is_some_and(|result| result != kind) {
+                    if guess(own, known).is_some_and(|result| result != kind) {
                         continue;
                     }
                     let operator = match &**name {
@@ -245,10 +244,13 @@ impl Ingredients {
                     kind: ExpressionKind::Member(Box::new(bracketed(value)), "xyz".into()),
                     ..value.clone()
                 },
+                // A number becomes a vector by a factor only.
+                (_, 1) if !is_whole => value.clone(),
                 _ => continue,
             };
             let named = |mistake, expression| Added { name: Some(name.clone()), ..plain(mistake, expression) };
-            if is_sum && width >= count {
+            let is_alike = width >= count && (count > 1 || width == 1);
+            if is_sum && is_alike {
                 found.push(named(Operator::AddendLeftOut, between(Binary::Add, bracketed(&fitting))));
                 found.push(named(Operator::AddendLeftOut, between(Binary::Subtract, bracketed(&fitting))));
             }

@@ -1,8 +1,8 @@
 //! Slips that are undone in a text, and that nobody makes of a right answer: there they would be another slip, or none.
 
 use super::super::calls::exchanged;
-use super::super::programs::guess;
 use super::super::tree::{ExpressionPlace, operands};
+use super::super::types::{KnownTypes, guess};
 use super::super::{Operator, bare};
 use crate::interpreter::syntax::{Binary, Expression, ExpressionKind, Name, Unary};
 use crate::interpreter::types::Type;
@@ -16,14 +16,14 @@ const MOST_ARGUMENTS: usize = 6;
 /// The changes at a place: what the student did, and what stands there then.
 pub(super) fn changes(
     place: &ExpressionPlace<'_>,
-    names: &[(Expression, Type)],
+    known: KnownTypes<'_>,
     members: &[Name],
 ) -> Vec<(Operator, Expression)> {
     let own = place.own;
-    let kind = guess(own, names);
+    let kind = guess(own, known);
     let mut found = Vec::new();
     let exchange = |arguments: &[Expression], kind: &dyn Fn(Vec<Expression>) -> ExpressionKind| {
-        let all = exchanged(arguments, MOST_ARGUMENTS, &mut |one| guess(one, names)).into_iter();
+        let all = exchanged(arguments, MOST_ARGUMENTS, &mut |one| guess(one, known)).into_iter();
         let other = |other| (Operator::Exchanged, Expression { kind: kind(other), ..own.clone() });
         all.map(other).collect::<Vec<_>>()
     };
@@ -38,11 +38,11 @@ pub(super) fn changes(
         }
         // One that is copied from where it is the first.
         ExpressionKind::Integer(..) if place.parent.is_some_and(is_index) => {
-            let whole = names.iter().filter(|(_, kind)| *kind == Type::INT);
+            let whole = known.names.iter().filter(|(_, kind)| *kind == Type::INT);
             found.extend(whole.map(|(name, _)| (Operator::OtherValue, name.clone())));
         }
         ExpressionKind::Call(name, _) if OF_VECTORS.contains(&&**name) => {
-            let numbers = names.iter().filter(|(_, kind)| *kind == Type::FLOAT);
+            let numbers = known.names.iter().filter(|(_, kind)| *kind == Type::FLOAT);
             found.extend(numbers.map(|(name, _)| (Operator::OtherValue, name.clone())));
         }
         ExpressionKind::Call(name, arguments) if Type::named(name).is_some() => {
@@ -53,7 +53,7 @@ pub(super) fn changes(
         }
         // What a matrix of perspective gives is divided by its last component.
         ExpressionKind::Member(of, name)
-            if name.chars().all(|c| "xyz".contains(c)) && guess(of, names) == Some(Type::VEC4) =>
+            if name.chars().all(|c| "xyz".contains(c)) && guess(of, known) == Some(Type::VEC4) =>
         {
             let last = ExpressionKind::Member(of.clone(), "w".into());
             let by = vec![(Binary::Divide, own.line, Expression { kind: last, ..own.clone() })];
@@ -61,7 +61,7 @@ pub(super) fn changes(
             found.push((Operator::DivisorLeftOut, divided));
         }
         // Of a vector they are components.
-        ExpressionKind::Member(of, name) if !matches!(guess(of, names), Some(Type::Vector(..))) => {
+        ExpressionKind::Member(of, name) if !matches!(guess(of, known), Some(Type::Vector(..))) => {
             let others = members.iter().filter(|other| *other != name);
             let member = |other: &Name| Expression {
                 kind: ExpressionKind::Member(of.clone(), Name::clone(other)),
