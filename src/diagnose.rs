@@ -124,11 +124,11 @@ pub fn diagnose(evidence: &Evidence<'_>) -> Diagnosis {
     let cause = cause.unless_absent(evidence, shape);
     let mut mistakes = cause.ids();
     // Where no line of the rubric is about the position, a mistake that is found says what moved.
-    let is_judged = evidence.assignment.rubric.iter().any(|line| evidence.assignment.judges_position(line));
-    let is_said = if is_judged {
-        mistakes.iter().any(|id| costs_position(evidence.assignment, id))
-    } else {
-        !mistakes.is_empty()
+    let Evidence { assignment, .. } = *evidence;
+    let mut of_position = assignment.rubric.iter().filter(|line| assignment.judges_position(line)).peekable();
+    let is_said = match of_position.peek() {
+        Some(_) => of_position.any(|line| mistakes.iter().any(|id| kept(assignment, line, shape, &cause, id) < 1.0)),
+        None => !mistakes.is_empty(),
     };
     if !shape && !is_said {
         mistakes.insert(0, POSITION_CHANGED.into());
@@ -189,12 +189,6 @@ fn course(evidence: &Evidence<'_>, is_right_elsewhere: bool) -> Option<String> {
 fn share_a_line(assignment: &Assignment, a: &str, b: &str) -> bool {
     let costs = |id: &str, line: &str| assignment.mistake(id).is_some_and(|mistake| mistake.keeps(line) < 1.0);
     assignment.rubric.iter().any(|line| costs(a, &line.id) && costs(b, &line.id))
-}
-
-/// Whether a mistake costs points where things are drawn.
-fn costs_position(assignment: &Assignment, id: &str) -> bool {
-    let mut lines = assignment.rubric.iter().filter(|line| assignment.judges_position(line));
-    assignment.mistake(id).is_some_and(|mistake| lines.any(|line| mistake.keeps(&line.id) < 1.0))
 }
 
 struct ComparedProbes {

@@ -49,15 +49,26 @@ pub fn kept(assignment: &Assignment, line: &RubricLine, shape: bool, cause: &Cau
     if is_touched { assignment.mistake(id).map_or(1.0, |mistake| mistake.keeps(&line.id)) } else { 1.0 }
 }
 
-/// The lines that a repaired mistake costs points: those that are about the variable that it is in; else those of which it spoils what
-/// they judge, but for terms that are right by themselves. Where it spoils none of these, such as a sum, all that are not right.
+/// The lines that a repaired mistake costs points: those of the colour, see [`of_colour`], and of the position, where it moves what is
+/// drawn.
 pub(super) fn charged(assignment: &Assignment, terms: &[TermJudgement], repaired: &Repaired) -> Vec<String> {
     // What the homework says of a mistake counts.
     if !is_derived(&repaired.mistake.id) {
         let lines = assignment.rubric.iter().filter(|line| repaired.mistake.keeps(&line.id) < 1.0);
         return lines.map(|line| line.id.clone()).collect();
     }
+    let moved = assignment.rubric.iter().filter(|line| repaired.moves && assignment.judges_position(line));
+    let mut lines = of_colour(assignment, terms, repaired);
+    lines.extend(moved.map(|line| line.id.clone()));
+    lines
+}
+
+/// Those that are about the variable that it is in; else those of which it spoils what they judge, but for terms that are right by
+/// themselves. Where it spoils none of these, such as a sum, all that are not right.
+fn of_colour(assignment: &Assignment, terms: &[TermJudgement], repaired: &Repaired) -> Vec<String> {
     let is_wrong = |line: &&RubricLine| terms.iter().any(|term| term.line == line.id && !term.is_right());
+    // What cannot be judged by itself is not known to be right.
+    let is_right = |line: &&RubricLine| terms.iter().any(|term| term.line == line.id && term.is_right());
     let is_colour = |line: &&RubricLine| !assignment.judges_position(line);
     // What a fixed stage reads has its name, whatever stands for it in a right answer.
     let is_read = |name: &&str| {
@@ -87,7 +98,7 @@ pub(super) fn charged(assignment: &Assignment, terms: &[TermJudgement], repaired
     let is_spoilt = |line: &&RubricLine| repaired.touches.contains(&line.judges);
     let lines = || assignment.rubric.iter().filter(is_colour);
     let choices: [Vec<&RubricLine>; 3] = [
-        lines().filter(|line| is_wrong(line) && is_spoilt(line)).collect(),
+        lines().filter(|line| !is_right(line) && is_spoilt(line)).collect(),
         lines().filter(is_wrong).collect(),
         lines().filter(is_spoilt).collect(),
     ];

@@ -2,7 +2,7 @@
 
 use super::candidates::Mend;
 use super::quantities::Quantity;
-use super::search::{Search, is_in_place};
+use super::search::Search;
 use super::walk::made_of;
 use super::{Finding, Flaw, Stage, What, variable};
 use crate::diagnose::columns::{ScalarColumns, is_same};
@@ -53,7 +53,7 @@ impl Search<'_, '_> {
             is_settled: self.is_settled(mend),
             is_whole: self.is_whole(mend),
             is_telling: (self.is_telling(mend) || flaw != Flaw::Value) && !self.is_start(mend),
-            touches_position: !is_in_place(self.wanted, self.own, self.count),
+            touches_position: !self.is_in_place(self.own),
             is_use: !is_handed_over && matches!(site.what, What::Read(_)),
             touches: match missing {
                 Some(missing) => missing,

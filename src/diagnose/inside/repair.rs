@@ -14,7 +14,7 @@ pub(in crate::diagnose) use repaired::Repaired;
 
 use chained::Mending;
 
-use super::search::{Search, is_in_place, is_right};
+use super::search::{Search, is_right};
 use super::{Finding, Place, Seen, Stage, TracedProgram};
 use crate::compare::{COLOUR_TOLERANCE, POSITION_TOLERANCE};
 use crate::diagnose::columns::is_colour;
@@ -114,10 +114,6 @@ enum RepairAim {
 impl Search<'_, '_> {
     /// The changes that make all right together.
     pub fn repairs(&mut self, findings: &[Finding], goes_on: &mut dyn FnMut() -> bool) -> Vec<Repaired> {
-        // What stands elsewhere is another affair.
-        if !is_in_place(self.wanted, self.own, self.count) {
-            return Vec::new();
-        }
         let first = self.first_attempt();
         let Mending { steps, written, left } = self.steps(&first, findings, goes_on).unwrap_or_default();
         let mut attempt = first;
@@ -139,9 +135,6 @@ impl Search<'_, '_> {
 
     /// The one slip of the text without which all is right.
     pub fn slip(&self, findings: &[Finding]) -> Option<Located> {
-        if !is_in_place(self.wanted, self.own, self.count) {
-            return None;
-        }
         let attempt = self.first_attempt();
         let (lines, right) = (&self.lines(findings), &self.ingredients());
         match self.step(&attempt, RepairScope { lines, right, most: MOST_SLIPS, aim: RepairAim::Slip }) {
@@ -217,7 +210,7 @@ impl Search<'_, '_> {
             }
             let now = self.right_channels(&seen);
             let gained = before.iter().zip(&now).filter(|(before, now)| !**before && **now).count();
-            if !is_worse(&now) && gained > 0 && is_in_place(self.wanted, &seen, self.count) {
+            if !is_worse(&now) && gained > 0 && self.is_in_place(&seen) {
                 better.push((gained, step, seen));
             }
         }

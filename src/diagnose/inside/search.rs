@@ -7,6 +7,7 @@ use super::walk::{Suspect, made_of, roots, suspects};
 use super::*;
 use crate::diagnose::trials::{StageChanges, Trials};
 use crate::source::Source;
+use glam::DVec4;
 use reference::interpreter::{Program, Scalar};
 use std::cell::OnceCell;
 
@@ -251,6 +252,18 @@ impl Search<'_, '_> {
         Some(self.trials.at_all(&changes)?.colours)
     }
 
+    /// Whether everything stands where it should.
+    pub fn is_in_place(&self, seen: &Seen) -> bool {
+        is_in_place(self.wanted, seen, self.count)
+    }
+
+    /// Whether something stands where it should not. What is no number here may be drawn in its place all the same, as behind a branch
+    /// that nobody defines.
+    pub fn stands_elsewhere(&self, seen: &Seen) -> bool {
+        let mut positions = seen.positions.iter().zip(&self.wanted.positions).filter(|(own, _)| own.is_finite());
+        positions.any(|(own, wanted)| !is_same_place(*own, *wanted))
+    }
+
     fn changes(&self, mend: &Mend) -> StageChanges {
         let mut changes = self.base.clone();
         changes[mend.stage as usize].push(mend.change());
@@ -265,10 +278,12 @@ pub(super) fn is_right(wanted: &Seen, seen: &Seen, count: usize) -> bool {
 }
 
 /// Whether everything stands where it should.
-pub(super) fn is_in_place(wanted: &Seen, seen: &Seen, count: usize) -> bool {
+fn is_in_place(wanted: &Seen, seen: &Seen, count: usize) -> bool {
     let mut positions = seen.positions.iter().zip(&wanted.positions).take(count);
-    positions.all(|(own, wanted)| {
-        let largest = wanted.abs().max_element().max(f64::MIN_POSITIVE);
-        (*own - *wanted).abs().max_element() <= POSITION_TOLERANCE * largest
-    })
+    positions.all(|(own, wanted)| is_same_place(*own, *wanted))
+}
+
+fn is_same_place(own: DVec4, wanted: DVec4) -> bool {
+    let largest = wanted.abs().max_element().max(f64::MIN_POSITIVE);
+    (own - wanted).abs().max_element() <= POSITION_TOLERANCE * largest
 }

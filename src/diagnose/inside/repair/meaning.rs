@@ -10,8 +10,8 @@ use crate::diagnose::inside::{Finding, Flaw, variable};
 use crate::diagnose::locate::{Located, MistakeOrigin};
 use crate::diagnose::trials::{FUEL_OF_TRACE, StageChanges};
 use reference::equation::DISCARDED;
-use reference::interpreter::trace::{Event, Trace, What};
-use reference::interpreter::{DISCARD, Operator, Program, ProgramRepair, Stage};
+use reference::interpreter::trace::{Event, Site, Trace, What};
+use reference::interpreter::{Binary, DISCARD, Operator, Program, ProgramRepair, Scalar, Stage};
 use reference::mistake::Mistake;
 use reference::traced::{Bench, Seen};
 
@@ -38,16 +38,20 @@ impl Search<'_, '_> {
                 found => (repair.mistake, found.map(|(name, _)| name)),
             },
         };
+        let marks = program.sites().iter().position(|site| site.line == ProgramRepair::MARK);
+        // Where a loop begins and ends is no part of what it computes first.
+        let is_of_loop = marks.is_some_and(|site| is_count(program.sites(), site));
+        let definition = definition.filter(|_| !is_of_loop);
         let definition = definition.or_else(|| self.decides_what_is_drawn(attempt, &seen).then(|| DISCARD.to_owned()));
         let mistake = self.assignment.repaired(operator, definition.as_deref(), repair.is_bound_by_zero);
-        let marks = program.sites().iter().position(|site| site.line == ProgramRepair::MARK);
         let name = marks.and_then(|site| variable(program.sites(), site));
         Some(Repaired {
             mistake,
             located: Located { line: repair.line, name, role: MistakeOrigin::Wrong, stage: Some(*stage) },
             texts: repair.texts.clone(),
             numbers: None,
-            line: marked_value(program, &trace).and_then(|value| self.line_around(value)),
+            line: marked_value(program, &trace).filter(|_| !is_of_loop).and_then(|value| self.line_around(value)),
+            moves: self.stands_elsewhere(&attempt.seen) && self.is_in_place(&seen),
             touches: definition.map_or_else(Vec::new, |name| self.quantities.spoilt_by(*stage, &name)),
         })
     }
@@ -76,6 +80,7 @@ impl Search<'_, '_> {
             texts: [written, String::new()],
             numbers: None,
             line: None,
+            moves: false,
             touches: finding.touches.clone(),
         }
     }
@@ -132,11 +137,19 @@ impl Search<'_, '_> {
                 continue;
             }
             let is_given = matches!(sites[event.site].what, What::Assign { .. });
-            if let Some(name) = self.named(stage, event, is_given) {
+            // What the text has right without the change is not what it concerns: it is only handed over beside it.
+            if let Some(name) = self.named(stage, event, is_given).filter(|name| is_marked || !self.has(stage, name)) {
                 return Some((name, is_marked));
             }
         }
         None
+    }
+
+    /// Whether the student's text as it is computes a definition.
+    fn has(&self, stage: Stage, name: &str) -> bool {
+        let is_it = |own: &Quantity| own.names.iter().any(|own| own == name);
+        let events = self.trace(stage).into_iter().flat_map(|trace| &trace.events);
+        events.into_iter().any(|event| self.quantities.equals_any(stage, event, is_it))
     }
 
     /// The definition that a name of the text or of the right answer stands for.
@@ -159,6 +172,19 @@ impl Search<'_, '_> {
         };
         self.quantities.all.iter().find(is_it)?.names.first().cloned()
     }
+}
+
+/// Whether a whole number is given to a variable, or compared.
+fn is_count(sites: &[Site], site: usize) -> bool {
+    let is_whole = matches!(sites[site].kind.scalar(), Some(Scalar::Int | Scalar::Uint));
+    let counts = |what: &What| match what {
+        What::Assign { .. } => true,
+        What::Binary(operator) => {
+            matches!(operator, Binary::Less | Binary::LessEqual | Binary::Greater | Binary::GreaterEqual)
+        }
+        _ => false,
+    };
+    is_whole && sites.iter().any(|user| user.operands.contains(&site) && counts(&user.what))
 }
 
 /// The value of what was changed; of a number that of the first thing that is computed from it.

@@ -18,6 +18,8 @@ pub(in crate::diagnose) struct Repaired {
     pub numbers: Option<[String; 2]>,
     /// The line of the rubric whose feature it is in, where that is known.
     pub line: Option<String>,
+    /// Whether it puts in its place what stands elsewhere.
+    pub moves: bool,
     /// The variables of the right answer that are wrong with the mistake: the one that it is in, and those computed from it.
     pub touches: Vec<String>,
 }
