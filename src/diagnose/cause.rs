@@ -21,7 +21,7 @@ use reference::fit::{Alternatives, FeatureExplanation, TermJudgement, judge_term
 use reference::mistake::{FoundMistake, Mistake};
 
 pub(super) use search::{cause, is_there, leaves_little};
-use unexplained::with_features;
+pub(super) use unexplained::with_features;
 pub use worth::{belongs, kept};
 
 const HARD_CODED: &str = "hard-coded";

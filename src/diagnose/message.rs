@@ -3,21 +3,20 @@
 //! A message is said only where it is true of the student's text: what it presupposes is looked up first ([`Facts`]).
 
 mod blanks;
+mod kept;
 
 use super::cause::{NEARLY_RIGHT, PART_ABSENT, PART_MISSING, PART_SCALED, UNEXPLAINED};
 use super::constants::ChangedConstant;
 use super::inside::{self, Finding};
 use super::listed::Listed;
 use super::locate::{self, Located, TracedProbes, Words};
-use super::{Cause, Evidence, Hints, addends};
-use crate::compare::COLOUR_TOLERANCE;
+use super::{Cause, Evidence, Hints};
 use crate::language::Text;
 use blanks::Blanks;
+use kept::KeptLines;
 use reference::assignment::RubricLine;
 use reference::equation::Reads;
-use reference::fit::{Alternatives, Footprints};
 use reference::mistake::{FoundMistake, Mistake};
-use std::cell::OnceCell;
 
 /// A message and the line of the student's file that it speaks of.
 pub(super) struct Told {
@@ -44,16 +43,7 @@ pub(super) fn tell(
         }
     }
     if told.is_empty() {
-        let is_unseen = facts.is_finite_nowhere && !evidence.assignment.judges_position(line);
-        let text = match () {
-            () if is_unseen => unseen(),
-            () if matches!(cause, Cause::Unexplained { .. } | Cause::Repaired(_))
-                && facts.is_never_alone(evidence, line) =>
-            {
-                never_alone()
-            }
-            () => agreement(evidence, line),
-        };
+        let text = facts.kept.of(evidence, cause, line);
         return Told { text, line: None, file: None };
     }
     let join = |language: fn(&Text) -> &String, space| {
@@ -138,10 +128,8 @@ pub(super) struct Facts {
     listed: Vec<(String, Listed)>,
     /// All that are wrong.
     wrong: Option<Listed>,
-    /// Whether no colour is a number, so that nothing shows by itself.
-    is_finite_nowhere: bool,
-    /// The lines whose feature shows beside others everywhere, by id: asked for where a line of a wrong answer costs nothing.
-    never_alone: OnceCell<Vec<String>>,
+    /// What is known of lines that cost nothing.
+    kept: KeptLines,
 }
 
 impl Facts {
@@ -191,20 +179,7 @@ impl Facts {
             let symbol = evidence.assignment.names.get(&definition.name).and_then(|name| name.symbol.clone());
             names.extend(own.map(|own| format!("`{own}`")).or(symbol).map(|name| (definition.name.clone(), name)));
         }
-        let is_finite_nowhere = addends::is_finite_nowhere(evidence);
-        Self { places, names, findings, listed, wrong, is_finite_nowhere, never_alone: OnceCell::new() }
-    }
-
-    /// Whether what a line judges shows beside other lines everywhere, so that no probe says that it is right.
-    fn is_never_alone(&self, evidence: &Evidence<'_>, line: &RubricLine) -> bool {
-        let sought = || {
-            let Evidence { assignment, probes, .. } = *evidence;
-            let footprints = Footprints::of(&Alternatives::new(assignment, probes), COLOUR_TOLERANCE);
-            let judged = footprints.judged(&|_| true);
-            let open = footprints.lines().filter(|line| !judged.iter().any(|known| known.line == *line));
-            open.map(|line| assignment.rubric[line].id.clone()).collect()
-        };
-        self.never_alone.get_or_init(sought).contains(&line.id)
+        Self { places, names, findings, listed, wrong, kept: KeptLines::default() }
     }
 
     /// The names of the handed-out file that the student's still has.
@@ -232,41 +207,4 @@ impl Facts {
     fn place(&self, id: &str) -> Option<&Located> {
         self.places.iter().find(|(known, _)| known == id)?.1.as_ref()
     }
-}
-
-/// What is said of a line that costs nothing where no colour is a number.
-fn unseen() -> Text {
-    Text::new(
-        "No colour is a number, so that it cannot be seen by itself. No mistake was found in it in the text.",
-        "どの色も数値になっていないので、この項だけを色から確かめることはできません。シェーダの中では、この項に間違いは見つかりませんでした。",
-    )
-}
-
-/// What is said of a line that costs nothing where other lines show wherever it does, as where all that is seen is tone-mapped.
-fn never_alone() -> Text {
-    Text::new(
-        "The colour alone does not tell whether it is right: other parts change it wherever this one does. No mistake was found in it in \
-         the text.",
-        "この項が現れるところではほかの項も色を変えるので、色だけからは確かめられません。シェーダの中では、この項に間違いは見つかりませんでした。",
-    )
-}
-
-/// Right answers get more than silence.
-fn agreement(evidence: &Evidence<'_>, line: &RubricLine) -> Text {
-    let frames = evidence.frames.len();
-    let probes = evidence.probes.probes.len();
-    if let Some(right) = &line.right {
-        let filled = right.fill(&[("frames", &frames.to_string()), ("probes", &probes.to_string())]);
-        return filled.into();
-    }
-    if evidence.assignment.judges_position(line) {
-        return Text::new(
-            format!("Everything stands where it should in all {frames} frames."),
-            format!("{frames} 枚の画像すべてで、位置と形が一致しています。"),
-        );
-    }
-    Text::new(
-        format!("It agrees wherever it shows among {probes} probes."),
-        format!("{probes} 点の検査点のうち、この項が現れるすべての点で一致しています。"),
-    )
 }

@@ -102,7 +102,7 @@ pub(super) fn unexplained(
 }
 
 /// The judgements; of a line with a feature it is judged where that shows.
-pub(super) fn with_features(
+pub(in crate::diagnose) fn with_features(
     alternatives: &Alternatives<'_>,
     samples: &[[f64; 3]],
     mut terms: Vec<TermJudgement>,
