@@ -6,6 +6,8 @@ mod assignment;
 mod authoring;
 #[path = "cli/blocks.rs"]
 mod blocks;
+#[path = "cli/equivalents.rs"]
+mod equivalents;
 #[path = "cli/folders.rs"]
 mod folders;
 #[path = "cli/manual.rs"]
