@@ -41,7 +41,7 @@ const SAMPLES: [(&str, usize); 30] = [
     ("rings", 16),
     ("schlick", 191),
     ("several-lights", 184),
-    ("spot-directx", 226),
+    ("spot-directx", 227),
     ("spot-opengl", 218),
     ("spot-soft", 202),
     ("threshold", 200),

@@ -17,7 +17,14 @@ const MOST_ENTRIES: usize = 8;
 /// Whether the colour comes from a table: it stays the same, number by number, when all attributes change; and it has few
 /// values when the matrices do, or the text looks something up by a number.
 pub fn is_lookup(source: &Source, probes: &ProbeSet, samples: &[Sample]) -> bool {
-    probes.with_other_vertices().is_some_and(|groups| stays_the_same(groups, samples))
+    let is_black = |sample: &Sample| sample.colour_f64().iter().all(|channel| channel.abs() <= COLOUR_TOLERANCE);
+    // What is dark there and not elsewhere has lost its light, as in a cone that points away.
+    let is_lost = |groups: &[Range<usize>; 2]| {
+        let dark = groups.iter().filter_map(|places| samples.get(places.clone())).flatten();
+        dark.into_iter().all(is_black) && !samples.iter().all(is_black)
+    };
+    let twins = probes.with_other_vertices().filter(|groups| !is_lost(groups));
+    twins.is_some_and(|groups| stays_the_same(groups, samples))
         && (entries(probes, samples) <= MOST_ENTRIES || has_a_table(source))
 }
 
