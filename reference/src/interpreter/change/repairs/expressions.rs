@@ -87,7 +87,7 @@ fn is_use(own: &Expression, declared: &Declared) -> bool {
     match &bare(own).kind {
         ExpressionKind::Name(name) => !declared.is_input(name),
         ExpressionKind::Member(of, _) | ExpressionKind::Index(of, _) => is_use(of, declared),
-        ExpressionKind::Call(name, _) => Type::named(name).is_none() && !is_builtin(name),
+        ExpressionKind::Call(..) => is_own_call(own),
         _ => false,
     }
 }
@@ -96,10 +96,15 @@ fn is_use(own: &Expression, declared: &Declared) -> bool {
 fn has_own_call(own: &Expression) -> bool {
     let own = bare(own);
     match &own.kind {
-        ExpressionKind::Call(name, _) => Type::named(name).is_none() && !is_builtin(name),
+        ExpressionKind::Call(..) => is_own_call(own),
         ExpressionKind::Chain(..) => operands(own).into_iter().any(has_own_call),
         _ => false,
     }
+}
+
+/// Whether a function of the text is called.
+fn is_own_call(own: &Expression) -> bool {
+    matches!(&bare(own).kind, ExpressionKind::Call(name, _) if Type::named(name).is_none() && !is_builtin(name))
 }
 
 /// Whether another value is taken, and nothing made of it.
