@@ -31,12 +31,15 @@ impl KeptLines {
         if *self.is_finite_nowhere.get_or_init(|| addends::is_finite_nowhere(evidence)) {
             return unseen();
         }
+        // Mistakes that are known explain all that is seen.
+        if matches!(cause, Cause::Known { .. }) {
+            return agreement(evidence, line);
+        }
         let is_open = matches!(cause, Cause::Unexplained { .. } | Cause::Repaired(_));
         match self.judgement(evidence, line) {
             None if is_open => never_alone(),
             _ if is_open && self.is_never_alone(evidence, line) => never_alone(),
-            // Mistakes that are known explain all that is seen.
-            Some(term) if !matches!(cause, Cause::Known { .. }) && term.matched < term.judged => elsewhere(),
+            Some(term) if term.matched < term.judged => elsewhere(),
             _ => agreement(evidence, line),
         }
     }
