@@ -20,7 +20,7 @@ pub(super) use tank::run;
 pub(super) use total::settle;
 
 use super::gate::{Costs, each_statement};
-use super::spirv::{LineTable, OURS};
+use super::spirv::{LineTable, is_ours};
 use naga::{
     AddressSpace, Block, Expression, Function, GlobalVariable, Handle, Module, Scalar, Span, Statement, Type, TypeInner,
 };
@@ -88,7 +88,7 @@ pub(super) fn meter(
     let handles: Vec<_> = module.functions.iter().map(|(handle, _)| handle).collect();
     for handle in handles {
         // A lookup reads eight texels at most.
-        if module.functions[handle].name.as_ref().is_some_and(|name| name.ends_with(OURS)) {
+        if is_ours(&module.functions[handle]) {
             continue;
         }
         if holds_loop(&module.functions[handle].body, &looping) {

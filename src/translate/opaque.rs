@@ -7,7 +7,7 @@
 
 use super::build::Build;
 use super::entry::is_input;
-use super::spirv::{Io, OURS};
+use super::spirv::{Io, is_ours};
 use naga::{
     AddressSpace, Arena, BinaryOperator, Block, Expression, Function, GlobalVariable, Handle, LocalVariable, Module,
     Scalar, ScalarKind, Span, Statement, SwitchValue, Type, TypeInner,
@@ -41,7 +41,6 @@ pub(super) fn hide_conditions(module: &mut Module, io: &[Io]) -> Option<Handle<G
     let zero = module.global_variables.append(zero, Span::UNDEFINED);
     let mut is_used = false;
     // What a lookup branches by is known where it stands, or read from a buffer: the driver is to leave out what it does not need.
-    let is_ours = |function: &Function| function.name.as_ref().is_some_and(|name| name.ends_with(OURS));
     for (_, function) in module.functions.iter_mut().filter(|(_, function)| !is_ours(function)) {
         let sources = sources(function, &inputs);
         let body = std::mem::take(&mut function.body);

@@ -25,7 +25,7 @@ pub(super) use globals::{DEFAULT_BLOCK, UniformVariables};
 pub(super) use io::Io;
 pub use io::{InputInterpolation, InterfaceQualifiers};
 pub(super) use poison::NEGATIVE;
-pub(super) use textures::OURS;
+pub(super) use textures::is_ours;
 pub use textures::{CommonTexture, DESCRIPTION, TEXTURES, descriptions};
 pub(super) use walk::{RawInstruction, instructions, rename, text};
 

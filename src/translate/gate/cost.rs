@@ -7,7 +7,7 @@ use super::bounds::MAX_SCALARS;
 use super::weight::{BRANCH, CALL, COMPILED_LOOK_UP, LOOK_UP, LOOP, LOOP_IN_LOOP, scalars, weight};
 use crate::translate::LineTable;
 use crate::translate::entry::AttributePart;
-use crate::translate::spirv::OURS;
+use crate::translate::spirv::is_ours;
 use naga::front::Typifier;
 use naga::proc::ResolveContext;
 use naga::{Block, Expression, Function, Handle, Module, Span, Statement};
@@ -31,8 +31,11 @@ pub(in crate::translate) struct Costs {
 impl Costs {
     /// Adds up a module. A function stands behind those that it calls, or naga refuses the module.
     pub fn of(module: &Module) -> Self {
-        let of_entry = Self::with(module, COMPILED_LOOK_UP).of_entry;
-        Self { of_entry, ..Self::with(module, LOOK_UP) }
+        let costs = Self::with(module, LOOK_UP);
+        if !module.functions.iter().any(|(_, function)| is_ours(function)) {
+            return costs;
+        }
+        Self { of_entry: Self::with(module, COMPILED_LOOK_UP).of_entry, ..costs }
     }
 
     /// The same where a lookup costs so much.
@@ -40,8 +43,7 @@ impl Costs {
         let mut costs = Self::default();
         for (handle, function) in module.functions.iter() {
             let (operations, scalars) = costs.function(module, function);
-            let is_ours = function.name.as_ref().is_some_and(|name| name.ends_with(OURS));
-            let operations = if is_ours { operations.min(look_up) } else { operations };
+            let operations = if is_ours(function) { operations.min(look_up) } else { operations };
             costs.functions.insert(handle, operations);
             costs.scalars.insert(handle, scalars);
             let loops = CostWalk { module, costs: &costs }.loops(&function.body);

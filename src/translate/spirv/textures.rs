@@ -18,7 +18,12 @@ use library::splice;
 use std::collections::HashMap;
 
 /// What the names of the functions end with that read textures; no GLSL has such a name.
-pub const OURS: &str = "@ours";
+const OURS: &str = "@ours";
+
+/// Whether a function is one of ours.
+pub fn is_ours(function: &naga::Function) -> bool {
+    function.name.as_ref().is_some_and(|name| name.ends_with(OURS))
+}
 
 /// Bind group and binding of the textures.
 pub const TEXTURES: (u32, u32) = (1, 1);
