@@ -63,19 +63,19 @@ fn swizzles(file: &HintContext<'_>) -> Vec<Diagnostic> {
             && field.kind == LexemeKind::Word
             && file.code[index - 2].text != "gl_DepthRange";
         let called = file.word(Some(index + 1)) == "(";
+        let odd = field.text.chars().find(|c| !"xyzwrgbastpq".contains(*c));
+        let Some(odd) = odd.filter(|_| is_field && !called) else { continue };
         // A member of a structure, what a macro writes, or a branch of `#if` that nobody compiles may be called anything.
         let built_in = [file.code[index - 2].text, field.text].iter().any(|name| name.starts_with("gl_"));
         let known = built_in || is_member(file, field.text) || is_in_macro(file, field.text);
-        if !is_field || called || known || is_conditional(file, field.start) {
+        if known || is_conditional(file, field.start) {
             continue;
         }
-        if let Some(odd) = field.text.chars().find(|c| !"xyzwrgbastpq".contains(*c)) {
-            let text = Text::new(
-                format!("A vector has no components `{}`: `{odd}` names none.", field.text),
-                format!("ベクトルに `{}` という成分はありません (`{odd}` は成分名ではありません)。", field.text),
-            );
-            found.push(file.error_at(index, text).hint(super::components::names_of_components()));
-        }
+        let text = Text::new(
+            format!("A vector has no components `{}`: `{odd}` names none.", field.text),
+            format!("ベクトルに `{}` という成分はありません (`{odd}` は成分名ではありません)。", field.text),
+        );
+        found.push(file.error_at(index, text).hint(super::components::names_of_components()));
     }
     found
 }
