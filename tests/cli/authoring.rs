@@ -256,7 +256,7 @@ fn switches_and_kinds_in_a_block_become_a_homework() {
     let written = Written::from(&["workshop.frag"]);
     written.tells("if (!lamp.isOn)", "if (i < 0)");
     for (from, to) in [("case 1:", "case 7:"), ("case 2:", "case 7:"), ("sharpness)", "16.0)")] {
-        written.tells(from, to);
+        assert_eq!(written.graded(&[(from, to)])["verdict"], "wrong", "{from} → {to}");
     }
     // A block is filled with bits, in which a truth value is a whole number.
     let number = [("bool isOn", "uint isOn"), ("!lamp.isOn", "lamp.isOn == 0u")];

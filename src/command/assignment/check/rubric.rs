@@ -1,6 +1,6 @@
 //! What each line of the rubric is judged by.
 
-use super::shows::place;
+use super::shows::{place, seen};
 use super::{Album, CheckWording};
 use crate::fault::Fault;
 use crate::language::Text;
@@ -34,7 +34,8 @@ pub(super) fn say(
         }
         let (id, shows) = (&line.id, footprints.of_line(number).len());
         let frames = assignment.features[number].as_ref().and_then(|feature| assignment.frames_without(feature));
-        let place = place(probes, shows, frames.as_deref(), right);
+        let seen = frames.as_deref().map(|frames| seen(frames, right));
+        let place = place(probes, shows, seen, right.len());
         match judged_at(&judged, number) {
             0 => said.note(&beside_others(line, &place)),
             at => said.ok(&Text::new(

@@ -44,13 +44,13 @@ fn say_mistake(
             continue;
         }
         let shows = fit::showing(assignment, &found, probes, fit::TOLERANCE);
-        let place = place(probes, shows, frames.as_deref(), right);
+        let seen = frames.as_deref().map(|frames| seen(frames, right));
+        let place = place(probes, shows, seen, right.len());
         let id = &mistake.id;
         let text = Text::new(format!("mistake `{id}`: shows {}", place.en), format!("間違い `{id}`: {}", place.ja));
-        let is_seen = frames.is_none_or(|frames| frames.iter().zip(right).any(|(own, right)| is_seen(own, right)));
-        match is_seen {
-            true => said.ok(&text),
-            false => said.note(&Text::new(
+        match seen {
+            None | Some(1..) => said.ok(&text),
+            Some(0) => said.note(&Text::new(
                 format!("{}: its pictures look right, and only probes find it", text.en),
                 format!("{}。画像は正しく見え、検査点だけで見つかります", text.ja),
             )),
@@ -59,14 +59,17 @@ fn say_mistake(
     Ok(())
 }
 
-/// At how many probes and in how many frames something shows.
-pub(super) fn place(probes: &ProbeSet, shows: usize, frames: Option<&[Frame]>, right: &[Frame]) -> Text {
+/// In how many of these frames something differs from the right ones.
+pub(super) fn seen(frames: &[Frame], right: &[Frame]) -> usize {
+    frames.iter().zip(right).filter(|(own, right)| is_seen(own, right)).count()
+}
+
+/// At how many probes and in how many of so many frames something shows, where that is known of frames.
+pub(super) fn place(probes: &ProbeSet, shows: usize, seen: Option<usize>, count: usize) -> Text {
     let all = probes.probes.len();
-    let Some(frames) = frames else {
+    let Some(seen) = seen else {
         return Text::new(format!("at {shows} of {all} probes"), format!("検査点 {all} 点中 {shows} 点に現れる"));
     };
-    let seen = frames.iter().zip(right).filter(|(own, right)| is_seen(own, right)).count();
-    let count = right.len();
     Text::new(
         format!("at {shows} of {all} probes, and in {seen} of {count} frames"),
         format!("検査点 {all} 点中 {shows} 点、画像 {count} 枚中 {seen} 枚に現れる"),
@@ -75,10 +78,16 @@ pub(super) fn place(probes: &ProbeSet, shows: usize, frames: Option<&[Frame]>, r
 
 /// Whether a picture differs from the right one, edges aside.
 pub(super) fn is_seen(own: &Frame, right: &Frame) -> bool {
-    let lies = own.coverage.iter().zip(&right.coverage);
-    own.pixels.iter().zip(&right.pixels).zip(lies).any(|((own, right), lies)| {
-        let is_edge = *lies.0 == Coverage::Silhouette || *lies.1 == Coverage::Silhouette;
-        !is_edge && own.iter().zip(right).any(|(a, b)| a.abs_diff(*b) > PIXEL_TOLERANCE)
+    let width = own.width.max(1) as usize;
+    let rows = own.pixels.chunks(width).zip(right.pixels.chunks(width));
+    let lies = own.coverage.chunks(width).zip(right.coverage.chunks(width));
+    // Most of a picture is the same to the last bit.
+    let mut others = rows.zip(lies).filter(|((own, right), _)| own.as_flattened() != right.as_flattened());
+    others.any(|((own, right), lies)| {
+        own.iter().zip(right).zip(lies.0.iter().zip(lies.1)).any(|((own, right), lies)| {
+            let is_edge = *lies.0 == Coverage::Silhouette || *lies.1 == Coverage::Silhouette;
+            !is_edge && own.iter().zip(right).any(|(a, b)| a.abs_diff(*b) > PIXEL_TOLERANCE)
+        })
     })
 }
 
