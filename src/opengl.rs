@@ -1,6 +1,6 @@
 //! What the machine's own OpenGL driver draws of a homework: a third opinion, beside the interpreter's and wgpu's.
 
-use crate::ffi::opengl::{Driver, OpenglDraw, Rejection, ValueKind, Version, Window};
+use crate::ffi::opengl::{Driver, LinkedProgram, OpenglDraw, Rejection, ValueKind, Version, Window};
 use crate::render::{DrawCall, RenderScene};
 use crate::translate::INSTANCE_NUMBER;
 use reference::assignment::HandedIn;
@@ -57,18 +57,14 @@ pub fn agreement(assignment: &Assignment) -> Result<Agreement, String> {
     let scene = RenderScene::of(assignment, &[]);
     let texts = texts(assignment, |file| &file.solution.text);
     let mut agreement = Agreement { renderer: driver.renderer(), refusal: None, frames: Vec::new() };
-    for (index, right) in assignment.frames().into_iter().enumerate() {
-        match frame(&driver, assignment, &scene, texts, index) {
-            Ok(drawn) => {
-                let judged = right.coverage.iter().filter(|coverage| **coverage != Coverage::Silhouette).count();
-                let (differing, unlike) = (disagreeing(&right, &drawn), unlike(&right, &drawn));
-                agreement.frames.push(FrameAgreement { judged, differing, unlike });
-            }
-            Err(rejection) => {
-                agreement.refusal = Some(rejection.log);
-                break;
-            }
-        }
+    let all: Vec<usize> = (0..scene.frames.len()).collect();
+    match frames(&driver, assignment, &scene, texts, &all) {
+        Ok(all) => agreement.frames.extend(assignment.frames().iter().zip(all).map(|(right, drawn)| {
+            let judged = right.coverage.iter().filter(|coverage| **coverage != Coverage::Silhouette).count();
+            let (differing, unlike) = (disagreeing(right, &drawn), unlike(right, &drawn));
+            FrameAgreement { judged, differing, unlike }
+        })),
+        Err(rejection) => agreement.refusal = Some(rejection.log),
     }
     Ok(agreement)
 }
@@ -85,17 +81,31 @@ pub fn texts<'a>(assignment: &'a Assignment, handed_in: impl Fn(&'a HandedIn) ->
     })
 }
 
-/// One frame as OpenGL draws it: 8 bits a channel, rows from above.
+/// Some frames as OpenGL draws them: 8 bits a channel, rows from above. The driver compiles the program once for all of them, which
+/// takes it longer than to draw.
 ///
 /// # Errors
 /// The driver refuses the program.
-pub fn frame(
+pub fn frames(
     driver: &Driver,
     assignment: &Assignment,
     scene: &RenderScene,
-    texts: [&str; 2],
+    [vertex, fragment]: [&str; 2],
+    which: &[usize],
+) -> Result<Vec<Vec<[u8; 4]>>, Rejection> {
+    let program = driver.link(vertex, fragment, &[])?;
+    let drawn = which.iter().map(|number| frame(driver, program, assignment, scene, *number)).collect();
+    driver.delete(program);
+    Ok(drawn)
+}
+
+fn frame(
+    driver: &Driver,
+    program: LinkedProgram,
+    assignment: &Assignment,
+    scene: &RenderScene,
     frame: usize,
-) -> Result<Vec<[u8; 4]>, Rejection> {
+) -> Vec<[u8; 4]> {
     let (width, height) = (scene.width as usize, scene.height as usize);
     let background = scene.background.map(|channel| f32::from(channel) / 255.0);
     let window = Window { width, height, background, is_float: false };
@@ -119,9 +129,9 @@ pub fn frame(
             _ => draws.push(own),
         }
     }
-    let drawn = driver.scene(texts, &draws, &textures, window, 1)?.remove(0);
+    let drawn = driver.scene_of(program, &draws, &textures, window, 1).remove(0);
     let rows = drawn.chunks_exact(width).rev().flatten();
-    Ok(rows.map(|pixel| pixel.map(|channel| (channel * 255.0).round() as u8)).collect())
+    rows.map(|pixel| pixel.map(|channel| (channel * 255.0).round() as u8)).collect()
 }
 
 /// How many pixels of a right frame that are judged are not what OpenGL draws.

@@ -1,7 +1,7 @@
 //! Homeworks in folders: what ggrade draws and what the reference draws, against a real OpenGL driver.
 
 use super::opengl::{OpenGl, Version};
-use ggrade::opengl::{disagreeing, frame, texts};
+use ggrade::opengl::{disagreeing, frames, texts};
 use ggrade::render::{AdapterKind, Device, RenderScene, Renderer};
 use ggrade::source;
 use ggrade::translate::{HomeworkProgram, LinkedInterface, Stage};
@@ -48,9 +48,12 @@ fn compared(gl: &OpenGl, assignment: &Assignment) -> Counts {
     let scene = RenderScene::of(assignment, &[]);
     let ours = renderer.render_program(&linked, &scene).unwrap_or_else(|fault| panic!("{fault}")).frames;
     let mut counts = Counts::default();
-    for (index, right) in assignment.frames().into_iter().enumerate() {
-        let drawn = frame(gl.driver(), assignment, &scene, texts, index);
-        let drawn = drawn.unwrap_or_else(|rejection| panic!("{rejection:?}"));
+    let which: Vec<usize> = (0..scene.frames.len()).collect();
+    let drawn = frames(gl.driver(), assignment, &scene, texts, &which);
+    let drawn = drawn.unwrap_or_else(|rejection| panic!("{rejection:?}"));
+    let poses = assignment.scene.all_poses();
+    for (index, drawn) in which.into_iter().zip(drawn) {
+        let right = assignment.right_frame(&poses[index]);
         let ours = ours.picture(index as u32);
         counts.pixels += drawn.len();
         counts.painted += drawn.iter().filter(|pixel| differs(&scene.background, **pixel, 0)).count();
@@ -96,10 +99,10 @@ fn right_samples_of_the_built_in_homeworks_are_what_opengl_draws() {
     // The first homework has 447 of them, and tests of its own.
     for assignment in reference::assignments().filter(|assignment| assignment.id != "ggsample06") {
         let scene = RenderScene::of(assignment, &[]);
-        let mut frames: BTreeMap<usize, Vec<Frame>> = BTreeMap::new();
+        let mut right_frames: BTreeMap<usize, Vec<Frame>> = BTreeMap::new();
         for (index, pose) in assignment.scene.all_poses().iter().enumerate().step_by(SOME_FRAMES) {
             let accepted = assignment.accepted().map(|answer| assignment.frame_of(answer, pose));
-            frames.insert(index, std::iter::once(assignment.right_frame(pose)).chain(accepted).collect());
+            right_frames.insert(index, std::iter::once(assignment.right_frame(pose)).chain(accepted).collect());
         }
         for sample in samples(&submissions.join(&assignment.id).join("accepted")) {
             let read = |file: &assignment::HandedIn| {
@@ -132,15 +135,16 @@ fn right_samples_of_the_built_in_homeworks_are_what_opengl_draws() {
             let extended = extended(assignment, [vertex, fragment]);
             let extended_scene = extended.as_ref().map(|extended| RenderScene::of(extended, &[]));
             let scene = extended_scene.as_ref().unwrap_or(&scene);
-            for (index, right) in &frames {
-                let drawn = match frame(gl.driver(), assignment, scene, [vertex, fragment], *index) {
-                    Ok(drawn) => drawn,
-                    Err(rejection) => {
-                        wrong.push(format!("{}: {rejection:?}", sample.display()));
-                        break;
-                    }
-                };
-                let off = right.iter().map(|right| disagreeing(right, &drawn)).min().unwrap_or_default();
+            let which: Vec<usize> = right_frames.keys().copied().collect();
+            let drawn = match frames(gl.driver(), assignment, scene, [vertex, fragment], &which) {
+                Ok(drawn) => drawn,
+                Err(rejection) => {
+                    wrong.push(format!("{}: {rejection:?}", sample.display()));
+                    continue;
+                }
+            };
+            for ((index, right), drawn) in right_frames.iter().zip(&drawn) {
+                let off = right.iter().map(|right| disagreeing(right, drawn)).min().unwrap_or_default();
                 if off > 0 {
                     wrong.push(format!("{}, frame {index}: {off} pixels", sample.display()));
                 }

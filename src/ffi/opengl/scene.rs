@@ -73,6 +73,23 @@ impl Driver {
         outputs: u32,
     ) -> Result<Vec<Vec<[f32; 4]>>, Rejection> {
         let program = self.link(vertex, fragment, &[])?;
+        let pictures = self.scene_of(program, draws, textures, window, outputs);
+        self.delete(program);
+        Ok(pictures)
+    }
+
+    /// The same by a program that is linked: the driver compiles it when it draws first.
+    ///
+    /// # Panics
+    /// As [`Driver::scene`].
+    pub fn scene_of(
+        &self,
+        program: LinkedProgram,
+        draws: &[OpenglDraw],
+        textures: &[(&str, &Texture)],
+        window: Window,
+        outputs: u32,
+    ) -> Vec<Vec<[f32; 4]>> {
         let gl = self.gl();
         let [width, height] = [window.width, window.height].map(|side| i32::try_from(side).expect("a side"));
         let mut pictures = Vec::new();
@@ -122,8 +139,7 @@ impl Driver {
             buffers.into_iter().for_each(|buffer| gl.delete_renderbuffer(buffer));
             bound.into_iter().for_each(|texture| gl.delete_texture(texture));
         }
-        self.delete(program);
-        Ok(pictures)
+        pictures
     }
 
     fn draw_scene(&self, program: LinkedProgram, draw: &OpenglDraw) {
