@@ -48,7 +48,7 @@ fn compared(gl: &OpenGl, assignment: &Assignment) -> Counts {
     let scene = RenderScene::of(assignment, &[]);
     let ours = renderer.render_program(&linked, &scene).unwrap_or_else(|fault| panic!("{fault}")).frames;
     let mut counts = Counts::default();
-    let which: Vec<usize> = (0..scene.frames.len()).collect();
+    let which = of_each_view(assignment);
     let drawn = frames(gl.driver(), assignment, &scene, texts, &which);
     let drawn = drawn.unwrap_or_else(|rejection| panic!("{rejection:?}"));
     let poses = assignment.scene.all_poses();
@@ -63,6 +63,21 @@ fn compared(gl: &OpenGl, assignment: &Assignment) -> Counts {
         counts.reference += disagreeing(&right, &drawn);
     }
     counts
+}
+
+/// One of so many frames of a view is looked at, its first among them: between two of them only time and camera have gone on.
+const FRAMES_OF_A_VIEW: usize = 4;
+
+/// The numbers of these frames.
+fn of_each_view(assignment: &Assignment) -> Vec<usize> {
+    let poses = assignment.scene.all_poses();
+    let views = poses.chunk_by(|a, b| a.view == b.view);
+    let mut first = 0;
+    let some = views.flat_map(|view| {
+        first += view.len();
+        (first - view.len()..first).step_by(FRAMES_OF_A_VIEW)
+    });
+    some.collect()
 }
 
 /// Every homework that is built in or in `tests/homeworks` is what real OpenGL draws of it, textures included.
