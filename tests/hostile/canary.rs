@@ -3,9 +3,12 @@
 
 use super::neighbours::{hand_in, lasting};
 use super::settings;
-use super::workers::{alone, grade};
+use super::workers::grade;
 use ggrade::report::Verdict;
 use ggrade::sandbox::{Pool, Settings};
+
+/// So many workers meet the writers, each its part of them.
+const WORKERS: usize = 2;
 
 /// Shaders that write `P` where they can: what stands before `main`, and in it.
 const WRITERS: [(&str, &str, &str); 14] = [
@@ -127,35 +130,43 @@ fn shader((_, globals, body): &(&str, &str, &str)) -> Vec<u8> {
 
 #[test]
 fn nothing_of_a_shader_shows_in_the_next() {
-    let _alone = alone();
     let fresh: Vec<String> = {
         let pool = Pool::start(settings().with_single_use_workers(), 1).unwrap();
         READERS.iter().map(|reader| lasting(hand_in(&pool, reader.0, &shader(reader)))).collect()
     };
-    // A worker is used again until it has grown by a file's memory: here it stays to the end.
-    let settings = Settings { spares: 0, gradings_per_worker: u32::MAX, memory: 4 << 30, ..settings() };
-    let pool = Pool::start(settings, 1).unwrap();
-    pool.warm().unwrap();
-    let worker = pool.idle_processes();
-    assert_eq!(worker.len(), 1);
-    for writer in &WRITERS {
-        for (reader, fresh) in READERS.iter().zip(&fresh) {
-            let written = grade(&pool, &shader(writer)).unwrap().report;
-            let was_drawn = matches!(written.verdict, Verdict::Correct | Verdict::Wrong);
-            assert_eq!(was_drawn, writer.0 != "a buffer", "{}: {:?}", writer.0, written.diagnostics);
-            let read = hand_in(&pool, reader.0, &shader(reader));
-            assert!(!read.frames.is_empty(), "{} was not drawn: {:?}", reader.0, read.report.diagnostics);
-            assert!(lasting(read) == *fresh, "{} shows after {}", reader.0, writer.0);
+    // A worker is used again until it has grown by a file's memory: here each stays to the end.
+    let fresh = &fresh;
+    std::thread::scope(|scope| {
+        for writers in WRITERS.chunks(WRITERS.len().div_ceil(WORKERS)) {
+            scope.spawn(move || {
+                let settings = Settings { spares: 0, gradings_per_worker: u32::MAX, memory: 4 << 30, ..settings() };
+                let pool = Pool::start(settings, 1).unwrap();
+                pool.warm().unwrap();
+                let worker = pool.idle_processes();
+                assert_eq!(worker.len(), 1);
+                writers.iter().for_each(|writer| leaves_nothing(&pool, writer, fresh));
+                assert_eq!(pool.idle_processes(), worker, "one worker met them all");
+            });
         }
+    });
+}
+
+/// Each reader says after the writer what it says in a fresh process.
+fn leaves_nothing(pool: &Pool, writer: &(&str, &str, &str), fresh: &[String]) {
+    for (reader, fresh) in READERS.iter().zip(fresh) {
+        let written = grade(pool, &shader(writer)).unwrap().report;
+        let was_drawn = matches!(written.verdict, Verdict::Correct | Verdict::Wrong);
+        assert_eq!(was_drawn, writer.0 != "a buffer", "{}: {:?}", writer.0, written.diagnostics);
+        let read = hand_in(pool, reader.0, &shader(reader));
+        assert!(!read.frames.is_empty(), "{} was not drawn: {:?}", reader.0, read.report.diagnostics);
+        assert!(lasting(read) == *fresh, "{} shows after {}", reader.0, writer.0);
     }
-    assert_eq!(pool.idle_processes(), worker, "one worker met them all");
 }
 
 /// The pattern is there to be found: it fills the pictures of the shader that paints with it, and it is not the right
 /// answer's colour.
 #[test]
 fn the_pattern_would_show() {
-    let _alone = alone();
     let pool = Pool::start(settings(), 1).unwrap();
     let painted = hand_in(&pool, WRITERS[0].0, &shader(&WRITERS[0])).frames;
     // 5A5A5A5A is 1.5e16 as a float: white, in every pixel.

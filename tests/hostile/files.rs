@@ -17,6 +17,7 @@ use std::{fs, io};
 pub mod big;
 
 /// A file that means harm.
+#[derive(Clone)]
 pub struct Hostile {
     /// What it does; also its file name, without an extension.
     pub name: String,
@@ -88,6 +89,20 @@ pub fn all() -> Vec<Hostile> {
     let mut files = samples();
     files.extend(big::files());
     files
+}
+
+/// Of each folder of samples so many, and one of so many big ones, so that each construct is among them.
+const OF_A_FOLDER: usize = 2;
+const OF_BIG_ONES: usize = 4;
+
+/// Some of them, of every kind.
+pub fn some() -> Vec<Hostile> {
+    let folder = |file: &Hostile| file.name.splitn(3, "--").take(2).map(str::to_owned).collect::<Vec<_>>();
+    let samples = samples();
+    let folders = samples.chunk_by(|a, b| folder(a) == folder(b));
+    let mut some: Vec<Hostile> = folders.flat_map(|own| own.iter().take(OF_A_FOLDER).cloned()).collect();
+    some.extend(big::files().into_iter().step_by(OF_BIG_ONES));
+    some
 }
 
 /// The samples, with what stands beside them.

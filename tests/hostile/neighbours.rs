@@ -2,7 +2,7 @@
 
 use super::files;
 use super::settings;
-use super::workers::{alone, sample};
+use super::workers::sample;
 use ggrade::grade::Order;
 use ggrade::hand_in::HandIn;
 use ggrade::report::{Picture, Report, Verdict};
@@ -41,7 +41,6 @@ const CALLERS: usize = 4;
 
 #[test]
 fn honest_reports_are_those_of_a_quiet_day() {
-    let _alone = alone();
     let honest: Vec<(&str, Vec<u8>)> = HONEST.iter().map(|path| (*path, sample(path))).collect();
     let quiet: Vec<String> = {
         let pool = Pool::start(settings().with_single_use_workers(), 1).unwrap();
@@ -79,7 +78,6 @@ fn honest_reports_are_those_of_a_quiet_day() {
 
 #[test]
 fn reports_that_differ_are_told_apart() {
-    let _alone = alone();
     let pool = Pool::start(settings(), 1).unwrap();
     let right = hand_in(&pool, "a.vert", &sample(HONEST[0]));
     let wrong = hand_in(&pool, "a.vert", &sample(HONEST[2]));
