@@ -6,6 +6,7 @@ mod seed;
 use assert_cmd::Command;
 use ggrade::grade::{Grader, Order};
 use ggrade::hand_in::HandIn;
+use ggrade::parallel;
 use ggrade::render::AdapterKind;
 use ggrade::report::Verdict;
 use reference::assignment::MANIFEST;
@@ -14,6 +15,7 @@ use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 /// How many samples each homework has. A sample that is lost, and a folder that is no longer walked, are seen here.
 const SAMPLES: [(&str, usize); 30] = [
@@ -49,13 +51,18 @@ const SAMPLES: [(&str, usize); 30] = [
     ("waves", 14),
 ];
 
+/// So many homeworks are graded at once: each begins and ends with one worker at work.
+const AT_ONCE: usize = 2;
+
 /// What a folder's name says of the verdict of all in it.
 const FOLDERS: [(&str, &str); 4] =
     [("accepted", "correct"), ("wrong", "wrong"), ("rejected", "rejected"), ("stopped", "stopped")];
 
 #[test]
 fn every_sample_gets_its_expected_report() {
-    let found: Vec<String> = SAMPLES.iter().filter_map(|(homework, count)| differences(homework, *count)).collect();
+    let of_one = |(homework, count): &(&str, usize)| differences(homework, *count);
+    let found = parallel::map(&SAMPLES, AT_ONCE, &AtomicBool::new(false), of_one);
+    let found: Vec<String> = found.into_iter().flat_map(|of_one| of_one.expect("it is looked at")).collect();
     assert!(found.is_empty(), "{}", found.join("\n"));
 }
 
