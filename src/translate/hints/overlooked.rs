@@ -10,6 +10,7 @@ use crate::language::Text;
 use crate::source;
 use crate::translate::log::MAX_DIAGNOSTICS;
 use crate::translate::{LinkedInterface, Variable};
+use std::collections::HashSet;
 
 /// From this version on, the two shaders may differ in how an output is interpolated.
 const FREE_INTERPOLATION: u32 = 440;
@@ -56,6 +57,7 @@ fn version_number(file: &HintContext<'_>) -> u32 {
 
 /// `.rgb2`, `.e`: the compiler drops a character that names no component.
 fn swizzles(file: &HintContext<'_>) -> Vec<Diagnostic> {
+    let members = words_of_structures(file);
     let mut found = Vec::new();
     for index in 2..file.code.len() {
         let field = file.code[index];
@@ -67,7 +69,7 @@ fn swizzles(file: &HintContext<'_>) -> Vec<Diagnostic> {
         let Some(odd) = odd.filter(|_| is_field && !called) else { continue };
         // A member of a structure, what a macro writes, or a branch of `#if` that nobody compiles may be called anything.
         let built_in = [file.code[index - 2].text, field.text].iter().any(|name| name.starts_with("gl_"));
-        let known = built_in || is_member(file, field.text) || is_in_macro(file, field.text);
+        let known = built_in || members.contains(field.text) || is_in_macro(file, field.text);
         if known || is_conditional(file, field.start) {
             continue;
         }
@@ -80,9 +82,14 @@ fn swizzles(file: &HintContext<'_>) -> Vec<Diagnostic> {
     found
 }
 
-/// Whether a structure or a block has a member of this name.
-fn is_member(file: &HintContext<'_>, name: &str) -> bool {
-    file.declarations.iter().filter(|d| d.name == name && !d.global).any(|d| structure_around(file, d.index).is_some())
+/// The words between the braces of structures and blocks. The type of a member may be what a macro writes, so that it is no declaration
+/// by itself.
+fn words_of_structures<'t>(file: &HintContext<'t>) -> HashSet<&'t str> {
+    let opens = (0..file.code.len()).filter(|at| file.code[*at].text == "{");
+    let bodies = opens.filter(|open| structure_around(file, open + 1).is_some());
+    bodies
+        .flat_map(|open| file.code[open + 1..].iter().map(|token| token.text).take_while(|text| *text != "}"))
+        .collect()
 }
 
 /// Whether a macro is called so, or has the name in what it stands for.
