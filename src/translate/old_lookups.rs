@@ -10,6 +10,9 @@ use std::collections::BTreeMap;
 /// From this version on, drivers have no `texture2D` and its like outside the compatibility profile.
 const NO_OLD_LOOKUPS: i32 = 420;
 
+/// From this version on, there are the lookups of today.
+pub(super) const FIRST_OF_TODAY: i32 = 130;
+
 /// What the names of old lookups go on with behind `texture` or `shadow`.
 const KINDS_OF_TEXTURE: [&str; 4] = ["1D", "2D", "3D", "Cube"];
 

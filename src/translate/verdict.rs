@@ -1,7 +1,8 @@
 //! The first pass: what the compiler says of the texts of all stages, under OpenGL's rules.
 
 use super::concessions::{self, Renamed};
-use super::{LinkedInterface, TranslationRefusal, hints, log, old_lookups, portability, strict, text, unsupported};
+use super::old_lookups::{self, Renewed};
+use super::{LinkedInterface, TranslationRefusal, hints, log, portability, strict, text, unsupported};
 use crate::diagnostic::Diagnostic;
 use crate::fault::Fault;
 use crate::ffi::glslang::{CompilerOutput, GlslangRequest, GlslangRules, Reached, Stage, StageText, compile};
@@ -27,8 +28,14 @@ pub(super) struct Submitted<'a> {
 
 impl<'a> Submitted<'a> {
     pub fn new(stage: Stage, source: &'a Source, interface: &'a LinkedInterface) -> Self {
-        let old_lookups::Renewed { text, preamble, warning } = old_lookups::renewed(text::prepared(source), source);
-        let (preamble, warnings) = (text::c_text(&preamble), warning.into_iter().collect());
+        let own = text::prepared(source);
+        let Renewed { text, preamble, warning } = old_lookups::renewed(own.clone(), source);
+        let warnings = warning.into_iter().collect();
+        // By its own version the compiler knows them and not those of today.
+        let (text, preamble) = match source.version() < old_lookups::FIRST_OF_TODAY {
+            true => (own, CString::default()),
+            false => (text, text::c_text(&preamble)),
+        };
         Self { stage, source, interface, text, preamble, renamed: Vec::new(), warnings }
     }
 
@@ -69,7 +76,8 @@ impl<'a> Submitted<'a> {
 
     /// SPIR-V of a text that the first pass accepts.
     pub fn second_pass(&self) -> Result<Vec<u32>, Fault> {
-        super::second_pass(self.stage, &self.text, &self.preamble, &self.renamed, self.source.version())
+        let Renewed { text, preamble, .. } = old_lookups::renewed(self.text.clone(), self.source);
+        super::second_pass(self.stage, &text, &text::c_text(&preamble), &self.renamed, self.source.version())
     }
 }
 
