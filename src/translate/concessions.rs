@@ -10,6 +10,9 @@ use crate::source::{self, Source};
 /// The version from which on `shared` is a keyword.
 const SHARED_VERSION: i32 = 430;
 
+/// The version in which drivers have `inverse`, and the one in which the compiler has it first.
+const INVERSE_VERSIONS: [i32; 2] = [140, 150];
+
 /// The text that has been granted what the compiler minded, and the warnings for it.
 pub(super) struct Granted {
     pub text: String,
@@ -56,6 +59,11 @@ pub(super) fn grant(text: &str, log: &str, source: &Source) -> Option<Granted> {
         let is_call = |text: &str, at: usize| text[at + "length".len()..].trim_start().starts_with('(');
         granted.rename("length", "lengtH", |text, at| !is_call(text, at));
     }
+    if version == INVERSE_VERSIONS[0]
+        && let Some(entry) = errors().find(|entry| entry.token == "inverse")
+    {
+        granted.inverse(entry, source);
+    }
     (granted.text != text).then_some(granted)
 }
 
@@ -92,6 +100,27 @@ impl Granted {
         let warning = Diagnostic::warning(DiagnosticStage::Compile, message);
         self.warnings.push(match first {
             Some(line) => warning.at(line, Some(source.code_line(line).chars().count() as u32)),
+            None => warning,
+        });
+    }
+
+    /// A function of the next version.
+    fn inverse(&mut self, entry: &LogEntry<'_>, source: &Source) {
+        let [own, next] = INVERSE_VERSIONS.map(|version| version.to_string());
+        let Some(at) = self.text.find("version").and_then(|word| Some(word + self.text[word..].find(&own)?)) else {
+            return;
+        };
+        self.text.replace_range(at..at + own.len(), &next);
+        let message = Text::new(
+            format!("Some drivers have `inverse` only from `#version {next}` on."),
+            format!("`inverse` は `#version {next}` 以降でないと使えないドライバもあります。"),
+        );
+        let warning = Diagnostic::warning(DiagnosticStage::Compile, message);
+        self.warnings.push(match entry.place.and_then(|_| offset(&self.text, entry)) {
+            Some(at) => {
+                let (line, column) = source.position(at);
+                warning.at(line, Some(column))
+            }
             None => warning,
         });
     }
