@@ -4,13 +4,13 @@
 //! program: what counts is the size after both.
 
 use super::bounds::MAX_SCALARS;
-use super::weight::{BRANCH, CALL, COMPILED_LOOK_UP, LOOK_UP, LOOP, LOOP_IN_LOOP, scalars, weight};
+use super::weight::{BRANCH, CALL, COMPILED_LOOK_UP, INDEXED_SCALAR, LOOK_UP, LOOP, LOOP_IN_LOOP, scalars, weight};
 use crate::translate::LineTable;
 use crate::translate::entry::AttributePart;
 use crate::translate::spirv::is_ours;
 use naga::front::Typifier;
 use naga::proc::ResolveContext;
-use naga::{Block, Expression, Function, Handle, Module, Span, Statement};
+use naga::{Block, Expression, Function, Handle, Module, Span, Statement, TypeInner};
 use std::collections::{BTreeMap, HashMap};
 
 /// Numbers of a position.
@@ -110,9 +110,20 @@ impl CostWalk<'_> {
                 matches!(function.expressions[of], Expression::Literal(_) | Expression::Constant(_))
             };
             let own = types.get(handle, &self.module.types);
+            // A structure of an array as a whole.
+            let indexed = match *expression {
+                Expression::Load { pointer } if matches!(own, TypeInner::Struct { .. }) => {
+                    match function.expressions[pointer] {
+                        Expression::Access { base, index } if !is_constant(index) => size(base),
+                        _ => 0,
+                    }
+                }
+                _ => 0,
+            };
             weights.push(match *expression {
+                Expression::Load { .. } if indexed > 0 => indexed.saturating_mul(INDEXED_SCALAR),
                 Expression::Access { index, .. } if is_constant(index) => 1,
-                _ => weight(expression, own, size(handle), &size),
+                _ => weight(self.module, expression, own, size(handle), &size),
             });
         }
         weights

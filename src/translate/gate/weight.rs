@@ -6,7 +6,7 @@ use naga::{AddressSpace, ArraySize, BinaryOperator, Expression, Handle, MathFunc
 
 /// Reading or writing one element of an array at an index that is computed, for each scalar of the array: the driver
 /// makes a ladder of branches of it. Measured: 512 scalars, 0.5 s; 1,024, 6 s.
-const INDEXED_SCALAR: u64 = 20;
+pub(super) const INDEXED_SCALAR: u64 = 20;
 /// `pow`, `sin` and their like. Measured: 400 of `pow`, 0.6 s.
 const TRANSCENDENTAL: u64 = 15;
 /// Dividing integers, with the checks against zero and overflow.
@@ -50,8 +50,20 @@ fn width(scalar: naga::Scalar) -> u64 {
     u64::from(scalar.width).div_ceil(4)
 }
 
+/// How many scalars of an element are read or written at once: the driver keeps each member of structures in an array of its own.
+fn at_once(module: &Module, ty: &TypeInner) -> u64 {
+    match *ty {
+        TypeInner::Pointer { base, .. } => at_once(module, &module.types[base].inner),
+        TypeInner::Struct { ref members, .. } => {
+            members.iter().map(|member| at_once(module, &module.types[member.ty].inner)).max().unwrap_or(1)
+        }
+        _ => scalars(module, ty),
+    }
+}
+
 /// What an expression costs whose value has `own` scalars; `size` gives the scalars of its operands.
 pub(super) fn weight(
+    module: &Module,
     expression: &Expression,
     ty: &TypeInner,
     own: u64,
@@ -61,7 +73,9 @@ pub(super) fn weight(
     match *expression {
         Expression::Access { base, .. } => match ty.pointer_space() {
             Some(AddressSpace::Uniform | AddressSpace::Storage { .. }) => 1,
-            _ => size(base).saturating_mul(INDEXED_SCALAR),
+            // As many elements, each with what is read of it.
+            Some(_) => (size(base) / own.max(1)).saturating_mul(at_once(module, ty)).saturating_mul(INDEXED_SCALAR),
+            None => size(base).saturating_mul(INDEXED_SCALAR),
         },
         // Two matrices: a dot product of one's row and the other's column for each scalar.
         Expression::Binary { op: BinaryOperator::Multiply, left, right } if size(left).max(size(right)) > 4 => {
