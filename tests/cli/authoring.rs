@@ -249,6 +249,10 @@ fn whole_numbers_of_vertices_become_a_homework() {
     assert_eq!(written.graded(&[("in ivec4 boneIds", "in uvec4 boneIds")])["verdict"], "correct");
     let floats = written.graded(&[("in ivec4 boneIds", "in vec4 boneIds"), ("[boneIds[i]]", "[int(boneIds[i])]")]);
     assert_eq!(floats["verdict"], "rejected");
+    // Two shares are no coordinates, and add up to 1 as well.
+    let pair = Written::from(&["arm.vert"]);
+    assert_eq!(pair.graded(&[("weights.y", "(1.0 - weights.x)")])["verdict"], "correct");
+    assert_eq!(pair.graded(&[("boneIds.y", "boneIds.x")])["verdict"], "wrong");
 }
 
 #[test]

@@ -75,11 +75,16 @@ impl NameWords {
     }
 
     pub fn is_tangent(&self) -> bool {
-        self.has(&["tangent", "tang"]) && !self.is_bitangent()
+        self.has(&["tangent", "tang"]) && !self.is_bitangent() && !self.has(&["view", "eye", "camera", "light"])
     }
 
     pub fn is_bitangent(&self) -> bool {
         self.has(&["bitangent", "binormal"])
+    }
+
+    /// Whether it is a number or a colour for itself, and no place or direction.
+    pub fn is_a_value(&self) -> bool {
+        self.has(&["color", "colour", "offset", "weight", "weights"])
     }
 
     pub fn is_coordinates(&self) -> bool {
@@ -219,7 +224,7 @@ pub(super) fn attribute(name: &NameWords, kind: &Type) -> Option<&'static str> {
     }
     match () {
         () if name.is(&["vertex", "vert", "coord3d"]) => Some("position"),
-        () if name.is_bitangent() || name.has(&["color", "colour", "offset", "weight", "weights"]) => None,
+        () if name.is_bitangent() || name.is_a_value() => None,
         () if name.is_normal() => Some("normal"),
         () if name.is_tangent() => Some("tangent"),
         () if name.is_coordinates() => Some("texture-coordinates"),

@@ -32,7 +32,7 @@ pub(super) fn attributes(
             continue;
         }
         let known = names::attribute(&NameWords::of(name), kind);
-        let said = known.map(str::to_owned).or_else(|| fallback(kind, &carried).map(str::to_owned));
+        let said = known.map(str::to_owned).or_else(|| fallback(name, kind, &carried).map(str::to_owned));
         if known.is_none()
             && let Some(said) = &said
         {
@@ -78,7 +78,12 @@ fn in_turn(name: &str, kind: &Type, elements: Option<usize>) -> Vec<Vec<f64>> {
         }
         Type::Vector(Scalar::Float, 2..=4) if name.has(&["weight", "weights"]) => {
             const SHARES: [[f64; 4]; 3] = [[0.5, 0.3, 0.15, 0.05], [0.4, 0.1, 0.3, 0.2], [0.15, 0.45, 0.05, 0.35]];
-            SHARES.iter().map(|shares| shares[..count].to_vec()).collect()
+            // The last one is what is left of the whole.
+            let share = |shares: &[f64; 4], at: usize| match at + 1 == count {
+                true => ((1.0 - shares[..at].iter().sum::<f64>()) * 100.0).round() / 100.0,
+                false => shares[at],
+            };
+            SHARES.iter().map(|shares| (0..count).map(|at| share(shares, at)).collect()).collect()
         }
         _ => (0..3)
             .map(|nth| guess(&NameWords::of("color"), kind, Context { nth, ..Context::default() }).value)
@@ -87,7 +92,10 @@ fn in_turn(name: &str, kind: &Type, elements: Option<usize>) -> Vec<Vec<f64>> {
 }
 
 /// What an attribute carries whose name is not known: what is still missing, by its type.
-fn fallback(kind: &Type, carried: &BTreeMap<&str, &str>) -> Option<&'static str> {
+fn fallback(name: &str, kind: &Type, carried: &BTreeMap<&str, &str>) -> Option<&'static str> {
+    if NameWords::of(name).is_a_value() {
+        return None;
+    }
     let is_free = |said: &&str| !carried.contains_key(*said);
     let Type::Vector(Scalar::Float, count) = kind else { return None };
     match count {
