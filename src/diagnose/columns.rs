@@ -71,7 +71,7 @@ pub(super) fn is_zero(event: &Event) -> bool {
 }
 
 /// A quantity in the shape of a value: what it has not stays as it is.
-pub(super) fn shaped(event: &Event, quantity: &ScalarColumns) -> ScalarColumns {
+pub(super) fn shaped(event: &Event, quantity: &[Vec<f64>]) -> ScalarColumns {
     let own = event.values.iter().enumerate();
     own.map(|(scalar, own)| quantity.get(scalar).unwrap_or(own).clone()).collect()
 }

@@ -4,7 +4,7 @@ use super::quantities::Quantity;
 use super::search::Search;
 use super::walk::Suspect;
 use super::*;
-use crate::diagnose::columns::{ScalarColumns, fits, is_number, is_same, shaped};
+use crate::diagnose::columns::{ScalarColumns, fits, is_constant, is_number, is_same, shaped};
 use reference::interpreter::Scalar;
 use reference::interpreter::trace::{Event, ValueChange};
 
@@ -54,7 +54,7 @@ impl Search<'_, '_> {
             if quantity.is_multiplied_out
                 || quantity.stage != stage
                 || quantity.is_bool != is_bool
-                || !fits(first.values.len(), quantity.turns[0].len())
+                || quantity.turns[0][0].len() != lanes
             {
                 continue;
             }
@@ -67,16 +67,20 @@ impl Search<'_, '_> {
             if quantity.is_partial && !has_factor {
                 continue;
             }
-            let turns = &quantity.turns;
-            if turns.len() != 1 && turns.len() != events.len() {
+            // What is computed from place to place is no single number of a right answer, unless it has its name: that would be by chance.
+            let has_its_name = matches!(&site.what, What::Assign { name, .. } if quantity.names.contains(name));
+            let is_computed = !matches!(site.what, What::Read(_)) && !has_its_name;
+            let is_number = quantity.is_constant && quantity.turns[0].len() == 1;
+            if is_number && is_computed && !events.iter().all(|event| is_constant(&event.values)) {
                 continue;
             }
-            let turn = |at: usize| if turns.len() == 1 { &turns[0] } else { &turns[at] };
-            if turns[0][0].len() != lanes || events.iter().enumerate().all(|(at, event)| is_same(event, turn(at))) {
-                continue;
+            for turns in in_turn(&quantity.turns, events.len(), first.values.len()) {
+                let turn = |at: usize| turns[at.min(turns.len() - 1)];
+                if !events.iter().enumerate().all(|(at, event)| is_same(event, turn(at))) {
+                    let shaped = events.iter().enumerate().map(|(at, event)| shaped(event, turn(at))).collect();
+                    found.push(mend(Some(number), shaped));
+                }
             }
-            let shaped = events.iter().enumerate().map(|(at, event)| shaped(event, turn(at))).collect();
-            found.push(mend(Some(number), shaped));
         }
         if events.len() > 1 {
             let finished = events.iter().map(|event| self.quantities.finished(stage, trace, event));
@@ -112,5 +116,28 @@ impl Search<'_, '_> {
         let What::Assign { name, is_part: false } = &site.what else { return false };
         let own = self.quantities.all.iter().filter(|own| own.stage == stage && own.names.contains(name));
         own.flat_map(|own| &own.turns).any(|turn| events.iter().all(|event| is_same(event, turn)))
+    }
+}
+
+/// What a place may have each time that it is computed, so many times `count`, where a right answer has these turns: the same each time, one
+/// turn each time, all turns again and again, as in a loop around the right answer's, or each several times, as in a loop inside of it. A
+/// number may be the channels of a colour one after the other.
+fn in_turn(turns: &[ScalarColumns], count: usize, width: usize) -> Vec<Vec<&[Vec<f64>]>> {
+    let (most, channels) = (turns.len(), turns[0].len());
+    let is_channel = width == 1 && (3..=4).contains(&channels) && count == 3 * most;
+    if !is_channel && (!fits(width, channels) || !count.is_multiple_of(most)) {
+        return Vec::new();
+    }
+    let times = count / most;
+    let part = |turn: usize, channel: usize| match is_channel {
+        true => std::slice::from_ref(&turns[turn][channel]),
+        false => turns[turn].as_slice(),
+    };
+    let around = || (0..count).map(|at| part(at % most, at / most)).collect();
+    let inside = || (0..count).map(|at| part(at / times, at % times)).collect();
+    match (most, times) {
+        (1, _) if !is_channel => vec![vec![part(0, 0)]],
+        (_, 1) | (1, _) => vec![around()],
+        _ => vec![around(), inside()],
     }
 }
