@@ -65,6 +65,8 @@ pub enum Operator {
     OtherOrder,
     /// It is 1 minus what it should be.
     Complement,
+    /// Brackets are missing, or stand around something else.
+    Grouping,
     /// A part of a sum is added twice.
     AddedTwice,
     /// A factor is there twice.
@@ -75,8 +77,6 @@ pub enum Operator {
     Clamped,
     /// `normalize` around it.
     Normalized,
-    /// Brackets are missing, or stand around something else.
-    Grouping,
     /// It is divided as whole numbers are.
     WholeNumbers,
     /// It is shifted from −1 … 1 to 0 … 1.
@@ -123,12 +123,12 @@ impl Operator {
         Self::OtherFunction,
         Self::OtherOrder,
         Self::Complement,
+        Self::Grouping,
         Self::AddedTwice,
         Self::Squared,
         Self::Absolute,
         Self::Clamped,
         Self::Normalized,
-        Self::Grouping,
         Self::WholeNumbers,
         Self::Raised,
         Self::Root,

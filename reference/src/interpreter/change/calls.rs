@@ -1,7 +1,7 @@
 //! Slips around calls of functions.
 
 use super::tree::ExpressionPlace;
-use super::{Local, NameScope, Operator, bare, is_literal};
+use super::{Local, NameScope, Operator, bare, is_literal, written};
 use crate::interpreter::syntax::{Binary, Expression, ExpressionKind, Name};
 use crate::interpreter::types::Type;
 
@@ -30,6 +30,10 @@ pub(super) fn changes(place: &ExpressionPlace<'_>, scope: &mut NameScope<'_>, fo
             call.exchanged(scope, found);
             call.another(scope, found);
             call.another_order(found);
+            if is_square(place.own) {
+                let length = ExpressionKind::Call("length".into(), vec![arguments[0].clone()]);
+                found.push(Local::new(Operator::FactorLeftOut, Expression { kind: length, ..place.own.clone() }));
+            }
         }
         ExpressionKind::Conditional(condition, yes, no) => {
             let kind = ExpressionKind::Conditional(condition.clone(), no.clone(), yes.clone());
@@ -38,6 +42,12 @@ pub(super) fn changes(place: &ExpressionPlace<'_>, scope: &mut NameScope<'_>, fo
         }
         _ => {}
     }
+}
+
+/// Whether it is a vector's product with itself.
+pub(super) fn is_square(own: &Expression) -> bool {
+    let ExpressionKind::Call(name, arguments) = &own.kind else { return false };
+    matches!((&**name, &arguments[..]), ("dot", [a, b]) if written(a) == written(b))
 }
 
 /// Whether an expression is kept from going below 0.

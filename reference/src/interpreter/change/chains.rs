@@ -3,7 +3,7 @@
 mod brackets;
 
 use super::tree::ExpressionPlace;
-use super::{Local, NameScope, Operator, is_literal};
+use super::{Local, NameScope, Operator, bare, is_literal};
 use crate::interpreter::syntax::{Binary, Expression, ExpressionKind, Unary};
 use crate::interpreter::types::Type;
 
@@ -131,7 +131,14 @@ impl Chain<'_> {
 
     fn other_operators(&self, found: &mut Vec<Local>) {
         for (at, (operator, line, operand)) in self.others.iter().enumerate() {
+            let is_of_one = matches!(bare(self.operand(at)).kind, ExpressionKind::Floating(1.0, _));
             for other in instead_of(*operator) {
+                // One times it is what it is without the operator.
+                let is_left_out = is_of_one && *other == Binary::Multiply;
+                if is_left_out && *operator == Binary::Subtract {
+                    continue;
+                }
+                let mistake = if is_left_out { Operator::DivisorLeftOut } else { Operator::OtherOperator };
                 let expression = if is_additive(*operator) && is_multiplicative(*other) {
                     // A product binds more tightly than the sum around it.
                     let product = self.chain(self.operand(at).clone(), vec![(*other, *line, operand.clone())]);
@@ -153,7 +160,7 @@ impl Chain<'_> {
                     others[at].0 = *other;
                     self.chain(self.first.clone(), others)
                 };
-                found.push(Local::new(Operator::OtherOperator, expression).about(operand));
+                found.push(Local::new(mistake, expression).about(operand));
             }
         }
         // A sum that is taken for the greatest of its parts.
@@ -245,7 +252,7 @@ impl Chain<'_> {
         };
         // Of a power that is another exponent, of a number another number.
         let is_power = |one: &Expression| matches!(&one.kind, ExpressionKind::Call(name, _) if **name == *"pow");
-        let is_number = |one: &Expression| kind == Operator::Squared && (is_power(one) || is_literal(one));
+        let is_number = |one: &Expression| is_literal(one) || kind == Operator::Squared && is_power(one);
         for at in (0..self.count()).filter(|at| !is_number(self.operand(*at))) {
             let mut others = self.others.clone();
             others.push((operator, self.line, self.operand(at).clone()));

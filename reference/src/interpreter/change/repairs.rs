@@ -139,7 +139,7 @@ impl Repairable {
 
     /// The changes of what stands on these lines. What is only exchanged, or has another sign, comes first; then what stands on the first
     /// `near` lines; then the slips of what is written on the others; then what takes something from the right answer; then what is made
-    /// of a value only where it is used. Of each the smaller ones come first.
+    /// of a value only where it is used, on other lines than the first ones. Of each the smaller ones come first.
     pub fn repairs(&self, lines: &[u32], near: usize, right: &Ingredients) -> Vec<ProgramRepair> {
         let (mut found, mut statements) = (Vec::new(), Vec::new());
         let (mut expression, mut statement) = (0, 0);
@@ -182,7 +182,8 @@ impl Repairable {
             // A function around a value is one slip, whatever else it is given.
             let is_call = !repair.is_slip && repair.mistake <= Operator::CallLeftOut;
             let key = match &repair {
-                ProgramRepair { is_of_use: true, .. } => (4, size, rank),
+                // Where it was found to be wrong, what it is made for counts.
+                ProgramRepair { is_of_use: true, .. } => (if rank < near { 3 } else { 4 }, size, rank),
                 _ if repair.is_smallest(size) => (0, (0, false), rank),
                 _ if rank < near => (1, size, rank),
                 ProgramRepair { is_slip: true, .. } => (2, size, rank),

@@ -1,7 +1,7 @@
 //! Slips around a value: something more that is done to it.
 
 use super::tree::ExpressionPlace;
-use super::{FREE, Local, NameScope, Operator, floats, is_literal, name_of, written};
+use super::{FREE, Local, NameScope, Operator, calls, floats, is_literal, name_of, written};
 use crate::interpreter::syntax::{Binary, Expression, ExpressionKind, Unary};
 use crate::interpreter::types::Type;
 
@@ -76,7 +76,8 @@ impl WrappedValue<'_> {
         add(Operator::Absolute, self.call("abs", vec![own()]));
         add(Operator::Clamped, self.call("max", vec![own(), self.number(0.0)]));
         add(Operator::Clamped, self.call("clamp", vec![own(), self.number(0.0), self.number(1.0)]));
-        if self.count > 1 {
+        // Of a vector's product with itself that is its length.
+        if self.count > 1 && !place.parent.is_some_and(calls::is_square) {
             add(Operator::Normalized, self.call("normalize", vec![own()]));
         }
         add(Operator::Complement, self.between(self.number(1.0), Binary::Subtract, self.it()));

@@ -1,7 +1,8 @@
 //! Brackets that are missing, or stand around something else.
 
 use super::{Chain, Others, is_additive, is_multiplicative};
-use crate::interpreter::change::{Local, Operator, bare};
+use crate::interpreter::change::tree::operands;
+use crate::interpreter::change::{Local, Operator, bare, is_literal};
 use crate::interpreter::syntax::{Expression, ExpressionKind};
 
 impl Chain<'_> {
@@ -32,16 +33,19 @@ impl Chain<'_> {
                 if at > 0 {
                     let mut others: Others = self.others[..at].to_vec();
                     others[at - 1].2 = inner.first.clone();
-                    let sum = self.bracketed(self.chain(self.first.clone(), others));
+                    let sum = self.chain(self.first.clone(), others);
+                    let mistake = grouping_of(&sum);
+                    let sum = self.bracketed(sum);
                     let product = self.chain(sum, inner.others.clone());
                     let rest = self.others[at..].to_vec();
                     let whole = if rest.is_empty() { product } else { self.chain(product, rest) };
-                    found.push(Local::new(Operator::Grouping, whole));
+                    found.push(Local::new(mistake, whole));
                 }
                 if at + 1 < self.count() {
                     let last = inner.count() - 1;
                     let sum = self.chain(inner.operand(last).clone(), self.others[at..].to_vec());
                     let mut others = inner.others.clone();
+                    let mistake = grouping_of(&sum);
                     others[last - 1].2 = self.bracketed(sum);
                     let product = self.chain(inner.first.clone(), others);
                     let whole = match at {
@@ -52,7 +56,7 @@ impl Chain<'_> {
                             self.chain(self.first.clone(), before)
                         }
                     };
-                    found.push(Local::new(Operator::Grouping, whole));
+                    found.push(Local::new(mistake, whole));
                 }
             }
         }
@@ -77,4 +81,11 @@ impl Chain<'_> {
             found.push(Local::new(Operator::Grouping, sum(product(left), right)));
         }
     }
+}
+
+/// What brackets around a sum are that do not belong there. Around numbers they are no brackets that anybody writes: what is multiplied
+/// and added is missing.
+fn grouping_of(sum: &Expression) -> Operator {
+    let is_of_numbers = operands(sum).into_iter().all(is_literal);
+    if is_of_numbers { Operator::AddendLeftOut } else { Operator::Grouping }
 }
