@@ -139,7 +139,7 @@ impl DefinitionName {
         let is_symbol = own.is_some_and(|own| own.means.is_none()) && said.is_some();
         let line = || line_of(assignment, definition).map(|line| line.label.clone());
         Self {
-            named: if is_symbol { plain.clone() } else { named },
+            named: if is_symbol || plain.en.starts_with('⟨') { plain.clone() } else { named },
             plain,
             called: own.and_then(LectureName::in_few_words).or_else(line),
             is_known: said.is_some() || is_judged(assignment, definition),
@@ -218,7 +218,16 @@ fn of_line(assignment: &Assignment, definition: usize) -> Text {
             ja: format!("{}に使う値", quoted(&line.label.ja)),
         };
     }
-    Text { en: "the colour".into(), ja: "色".into() }
+    match definition == equation.colour {
+        true => Text { en: "the colour".into(), ja: "色".into() },
+        false => of_name(&equation.definitions[definition].name),
+    }
+}
+
+/// What the student calls it, or else the result.
+fn of_name(name: &str) -> Text {
+    let own = both("⟨`{name}`|the result⟩", "⟨`{name}` |結果⟩");
+    Text { en: own.en.replace("name", name), ja: own.ja.replace("name", name) }
 }
 
 /// The only line that judges a definition, or that is about it.
