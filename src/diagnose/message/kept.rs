@@ -2,9 +2,11 @@
 
 use crate::compare::COLOUR_TOLERANCE;
 use crate::diagnose::cause::with_features;
+use crate::diagnose::columns::is_colour;
 use crate::diagnose::{Cause, Evidence, addends};
 use crate::language::Text;
 use crate::render::Sample;
+use glam::DVec3;
 use reference::assignment::RubricLine;
 use reference::fit::{Alternatives, Footprints, TermJudgement, judge_terms};
 use std::cell::OnceCell;
@@ -40,6 +42,7 @@ impl KeptLines {
             None if is_open => never_alone(),
             _ if is_open && self.is_never_alone(evidence, line) => never_alone(),
             Some(term) if term.matched < term.judged => elsewhere(),
+            _ if is_open && self.is_wrong_where_shown(evidence, line) => elsewhere(),
             _ => agreement(evidence, line),
         }
     }
@@ -54,6 +57,18 @@ impl KeptLines {
             open.map(|line| assignment.rubric[line].id.clone()).collect()
         };
         self.never_alone.get_or_init(sought).contains(&line.id)
+    }
+
+    /// Whether a colour is wrong where a line's feature shows, beside others or not.
+    fn is_wrong_where_shown(&self, evidence: &Evidence<'_>, line: &RubricLine) -> bool {
+        let Evidence { assignment, probes, .. } = *evidence;
+        let own = assignment.rubric.iter().position(|own| own.id == line.id);
+        let Some(own) = own.filter(|_| assignment.is_told_by_features()) else { return false };
+        let footprints = Footprints::of(&Alternatives::new(assignment, probes), COLOUR_TOLERANCE);
+        footprints.of_line(own).into_iter().any(|at| {
+            let sample = evidence.samples.get(at).map(|sample| DVec3::from(sample.colour_f64()));
+            sample.is_none_or(|sample| !is_colour(probes.probes[at].colour, sample))
+        })
     }
 
     /// How far a line is right where it shows, wherever the mistake stands; none of one that is not seen by itself.
