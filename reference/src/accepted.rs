@@ -20,6 +20,8 @@ pub struct AcceptedAnswer {
     pub(crate) pipeline: Pipeline,
     /// What it has in place of texts of the solution, where that is all in which it differs.
     pub(crate) replaced: Vec<[String; 2]>,
+    /// The line of the rubric within whose feature alone it differs from the solution, where that is known.
+    pub(crate) within: Option<usize>,
     /// What is asked for, read in another way, where the answer is right by that.
     pub reading: Option<Arc<Reading>>,
 }
@@ -38,6 +40,13 @@ pub struct Reading {
 /// A colour and a position.
 pub(crate) type Computed = (DVec3, DVec4);
 
+impl AcceptedAnswer {
+    /// A program of which no more is known.
+    pub(crate) fn new(name: &str, pipeline: Pipeline) -> Self {
+        Self { name: name.to_owned(), pipeline, replaced: Vec::new(), within: None, reading: None }
+    }
+}
+
 impl Assignment {
     /// The answers that are right beside the solution.
     pub fn accepted(&self) -> impl Iterator<Item = &AcceptedAnswer> {
@@ -53,7 +62,7 @@ impl Assignment {
             Stage::Fragment => [&right.vertex, &own],
         };
         let pipeline = Pipeline::link(vertex, fragment, None).ok()?;
-        Some(AcceptedAnswer { name: name.to_owned(), pipeline, replaced: Vec::new(), reading: None })
+        Some(AcceptedAnswer::new(name, pipeline))
     }
 
     /// The same probes with what an answer computes there.

@@ -1,5 +1,7 @@
 //! What a line of the rubric judges, known by the solution without it.
 
+mod within;
+
 use crate::Assignment;
 use crate::accepted::{AcceptedAnswer, Computed};
 use crate::assignment::RubricLine;
@@ -24,8 +26,9 @@ impl Assignment {
     /// itself.
     pub fn feature_values(&self, line: usize) -> Option<[(TracedProgram, Stage, usize); 2]> {
         let Some(Feature::Program(program)) = self.features.get(line)? else { return None };
-        let [[value, instead]] = program.replaced.as_slice() else { return None };
-        Some([self.with_value(value, value)?, self.with_value(value, instead)?])
+        let [[text, instead]] = program.replaced.as_slice() else { return None };
+        let (value, instead) = operand(text, instead);
+        Some([self.with_value(text, value, value)?, self.with_value(text, value, instead)?])
     }
 
     /// Whether a line judges a value by itself, and not a way in which all is drawn.
@@ -57,15 +60,16 @@ impl Assignment {
             && lines().all(|(line, feature)| feature.is_some() || line.judges == *colour)
     }
 
-    /// The solution with something in the place of a text that stands in it, and the site of that.
-    fn with_value(&self, value: &str, instead: &str) -> Option<(TracedProgram, Stage, usize)> {
-        let file = self.files.iter().position(|file| file.solution.text.contains(value))?;
+    /// The solution with something in the place of a value within a text that stands in it, and the site of that.
+    fn with_value(&self, around: &str, value: &str, instead: &str) -> Option<(TracedProgram, Stage, usize)> {
+        let file = self.files.iter().position(|file| file.solution.text.contains(around))?;
         let mut texts: Vec<(Stage, String)> =
             self.files.iter().map(|file| (file.stage, file.solution.text.clone())).collect();
         let (stage, text) = &mut texts[file];
         let stage = *stage;
         // On a line of its own it is told from all else.
-        let (before, behind) = text.split_once(value)?;
+        let start = text.find(around)? + around.find(value)?;
+        let (before, behind) = (&text[..start], &text[start + value.len()..]);
         let own = before.lines().count() as u32 + 1;
         *text = format!("{before}\n{instead}\n{behind}");
         let texts: Vec<(Stage, &str)> = texts.iter().map(|(stage, text)| (*stage, text.as_str())).collect();
@@ -91,4 +95,34 @@ impl Assignment {
         };
         probes.iter().map(computed).collect()
     }
+}
+
+/// The value that a text stands for, and what is there instead of it. Of an operator with an operand that are left out, that is the
+/// operand, and what makes no difference to the other one; of an assignment what is assigned, and what the variable has.
+fn operand<'t>(text: &'t str, instead: &'t str) -> (&'t str, &'t str) {
+    let (text, instead) = (text.trim(), instead.trim());
+    if let (Some((to, value)), Some((other, instead))) = (assigned(text), assigned(instead))
+        && to == other
+    {
+        return (value, instead);
+    }
+    if !matches!(instead, "" | ";") {
+        return (text, instead);
+    }
+    let of = |signs: [char; 2]| text.strip_prefix(signs).or_else(|| text.strip_suffix(signs)).map(str::trim);
+    match (assigned(text), of(['+', '-']), of(['*', '/'])) {
+        (Some((to, value)), ..) if to.ends_with(['+', '-']) => (value, "0.0"),
+        (Some((to, value)), ..) if to.ends_with(['*', '/']) => (value, "1.0"),
+        (Some((to, value)), ..) => (value, to),
+        (_, Some(addend), _) => (addend, "0.0"),
+        (_, _, Some(factor)) => (factor, "1.0"),
+        _ => (text, instead),
+    }
+}
+
+/// What a statement assigns to, with the operator before the `=`, and what it assigns.
+fn assigned(text: &str) -> Option<(&str, &str)> {
+    let statement = text.strip_suffix(';').filter(|statement| !statement.contains([';', '{', '}']))?;
+    let (to, value) = statement.split_once('=').filter(|(_, value)| !value.starts_with('='))?;
+    (!to.ends_with(['<', '>', '!', '(']) && !to.contains('(')).then_some((to.trim(), value.trim()))
 }

@@ -125,7 +125,7 @@ impl Assignment {
 
     /// The solution as an answer.
     fn own_answer(&self) -> AcceptedAnswer {
-        AcceptedAnswer { name: String::new(), pipeline: self.pipeline.clone(), replaced: Vec::new(), reading: None }
+        AcceptedAnswer::new("", self.pipeline.clone())
     }
 }
 

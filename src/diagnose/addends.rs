@@ -7,15 +7,16 @@
 use super::Evidence;
 use super::columns::{ScalarColumns, is_constant, is_number, is_same, of_places};
 use super::inside::{self, made_of};
-use super::trials::{FUEL_OF_TRACE, StageChanges, change, is_drawn, place};
+use super::trials::{FUEL_OF_TRACE, StageChanges, is_drawn, place};
 use glam::DVec3;
 use reference::assignment::RubricLine;
 use reference::equation::Reads;
 use reference::fit::TermJudgement;
-use reference::interpreter::trace::{Event, Trace, What};
+use reference::interpreter::trace::{Event, Trace, ValueChange, What};
 use reference::interpreter::{Binary, Stage};
 use reference::pipeline::POSITION;
 use reference::traced::{Bench, Place};
+use std::collections::BTreeSet;
 
 /// Every seventh of the 560 probes is looked at, so that each of the 20 designs occurs four times.
 const STRIDE: usize = 7;
@@ -180,7 +181,7 @@ impl<'a> TextEvaluation<'a> {
 
     /// Something is added to an event.
     fn raised(&self, event: usize) -> StageChanges {
-        raised(self.stage, &self.trace, event)
+        raised(self.stage, &self.trace, &[event])
     }
 
     /// Whether the colour moves as a right answer's does when something is added to an event.
@@ -217,14 +218,18 @@ impl<'a> TextEvaluation<'a> {
     }
 }
 
-/// Something is added to an event.
-pub(super) fn raised(stage: Stage, trace: &Trace, event: usize) -> StageChanges {
-    let mut values = trace.events[event].values.clone();
-    for (column, added) in values.iter_mut().zip(ADDED) {
-        column.iter_mut().for_each(|x| *x += added);
-    }
+/// Something is added to some events.
+pub(super) fn raised(stage: Stage, trace: &Trace, events: &[usize]) -> StageChanges {
+    let raise = |values: &ScalarColumns| -> ScalarColumns {
+        let more = ADDED.into_iter().chain(std::iter::repeat(0.0));
+        values.iter().zip(more).map(|(column, added)| column.iter().map(|x| x + added).collect()).collect()
+    };
     let mut changes = StageChanges::default();
-    changes[stage as usize].push(change(trace, event, &values));
+    for site in events.iter().map(|event| trace.events[*event].site).collect::<BTreeSet<usize>>() {
+        let turns = trace.events.iter().enumerate().filter(|(_, event)| event.site == site);
+        let values = turns.map(|(at, own)| if events.contains(&at) { raise(&own.values) } else { own.values.clone() });
+        changes[stage as usize].push(ValueChange { site, values: values.collect() });
+    }
     changes
 }
 

@@ -68,6 +68,8 @@ pub(super) struct Finding {
     pub touches_position: bool,
     /// What is wrong with it.
     pub flaw: Flaw,
+    /// The id of the line of the rubric within whose feature it is, where that is known.
+    pub feature: Option<String>,
     /// What it should be, and what it is, at a place that shows it.
     pub expected: Vec<f64>,
     pub found: Vec<f64>,
@@ -152,6 +154,13 @@ pub(super) fn added_lines(evidence: &Evidence<'_>) -> Vec<String> {
     within(evidence, evidence.assignment, &[], &[], |search| search.added_lines()).unwrap_or_default()
 }
 
+/// The id of the line of the rubric within whose feature all places of mistakes are.
+pub(super) fn feature_of_all(evidence: &Evidence<'_>) -> Option<String> {
+    let mut features = find(evidence).into_iter().map(|finding| finding.feature);
+    let first = features.next()??;
+    features.all(|other| other.as_ref() == Some(&first)).then_some(first)
+}
+
 /// The one place that all is mended at, where these are such a place.
 pub(super) fn only(findings: Vec<Finding>) -> Option<Finding> {
     match <[Finding; 1]>::try_from(findings) {
@@ -228,6 +237,7 @@ fn within<T: Default>(
         count: places.len(),
         base: Default::default(),
         chain: Default::default(),
+        features: Default::default(),
     };
     if is_right(&wanted, &own, places.len()) {
         return Some(T::default());

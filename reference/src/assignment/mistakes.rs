@@ -3,7 +3,10 @@
 use super::{Assignment, RubricLine};
 use crate::derived::{Derived, is_derived};
 use crate::equation::EquationVariant;
+use crate::interpreter::Stage;
+use crate::interpreter::trace::{Site, What};
 use crate::mistake::{FoundMistake, Mistake, MistakeForm};
+use crate::traced::TracedProgram;
 
 impl Assignment {
     /// The mistake with this id.
@@ -42,6 +45,18 @@ impl Assignment {
     /// Whether a line of the rubric is about a variable of the solution.
     pub fn is_judged(&self, variable: &str) -> bool {
         self.lines_about(variable).next().is_some()
+    }
+
+    /// Whether one line of the rubric alone is about a variable of the solution, which is given one value, so that the line is about all
+    /// that it is. What is given several values one after the other may have those of other lines.
+    pub fn is_of_one_line(&self, variable: &str) -> bool {
+        let gives = |site: &&Site| matches!(&site.what, What::Assign { name, .. } if name == variable);
+        let given = |program: &TracedProgram| -> usize {
+            let stages = [Stage::Vertex, Stage::Fragment].into_iter();
+            stages.map(|stage| program.stage(stage).sites().iter().filter(gives).count()).sum()
+        };
+        self.lines_about(variable).count() == 1
+            && TracedProgram::solution(self).is_ok_and(|solution| given(&solution) == 1)
     }
 
     /// Whether a variable of a solution that is no list of definitions is called anything, by itself or by a line that is about it.

@@ -32,7 +32,8 @@ pub(super) fn mistakes(assignment: &Assignment) -> Vec<Mistake> {
         let returns = |name: &str| own.iter().any(|function| function.name.text == name);
         let slips = program_slips(&file.solution.text, file.stage, &is_part).unwrap_or_default();
         for slip in slips {
-            let Some(answer) = assignment.linked_with(file, slip.program.clone(), &slip.text) else { continue };
+            let Some(mut answer) = assignment.linked_with(file, slip.program.clone(), &slip.text) else { continue };
+            answer.within = slip.part.bytes.as_ref().and_then(|bytes| assignment.line_with(file, bytes));
             // What a function returns, and what decides what is thrown away, has a name where it is known what it is for.
             let is_variable = |name: &str| !returns(name) && name != DISCARD;
             let is_told = |name: &&String| is_variable(name) || assignment.is_told_apart(name);
@@ -106,6 +107,11 @@ impl Derived {
         let pairs = || probes.iter().zip(&shown);
         if self.assignment.judges_position(line) {
             return pairs().any(|(probe, (_, position))| (probe.position - *position).abs().max_element() > TOLERANCE);
+        }
+        let program = self.assignment.mistake(&found.id).and_then(|mistake| mistake.program(found.form));
+        let is_of_one_line = || definition(&found.id).is_some_and(|name| self.assignment.is_of_one_line(name));
+        if let Some(within) = program.and_then(|program| program.within).filter(|_| !is_of_one_line()) {
+            return self.assignment.rubric[within].id == line.id;
         }
         let is_right = |(at, channel): (usize, usize)| {
             channel_agrees(probes.probes[at].colour[channel], shown[at].0[channel], TOLERANCE)

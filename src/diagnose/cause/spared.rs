@@ -78,6 +78,9 @@ pub fn beside(evidence: &Evidence<'_>, mut terms: Vec<TermJudgement>, findings: 
 /// follows from it.
 fn elsewhere(assignment: &Assignment, findings: &[Finding]) -> Option<Vec<String>> {
     let owners = |finding: &Finding| -> Option<Vec<&RubricLine>> {
+        if let Some(within) = finding.feature.as_ref().filter(|_| !finding.is_whole && !finding.touches_position) {
+            return Some(assignment.rubric.iter().filter(|line| line.id == *within).collect());
+        }
         let name = finding.serves.as_deref().filter(|_| !finding.is_whole)?;
         let about = || assignment.lines_about(name);
         let of_position: Vec<&RubricLine> =
@@ -91,7 +94,8 @@ fn elsewhere(assignment: &Assignment, findings: &[Finding]) -> Option<Vec<String
     (!wrong.is_empty()).then(|| right.map(|line| line.id.clone()).collect())
 }
 
-/// The ids of the lines that derived mistakes cost nothing, for the text computes what they judge; none where these are all.
+/// The ids of the lines that derived mistakes cost nothing, for the text computes what they judge, or has its one mistake within another
+/// line's feature; none where these are all.
 pub fn by_text(evidence: &Evidence<'_>, found: &[FoundMistake]) -> Vec<String> {
     let assignment = evidence.assignment;
     if !assignment.is_told_by_features() || !found.iter().all(|found| is_derived(&found.id)) {
@@ -99,6 +103,12 @@ pub fn by_text(evidence: &Evidence<'_>, found: &[FoundMistake]) -> Vec<String> {
     }
     let costs = |line: &&RubricLine| found.iter().any(|found| assignment.keeps(found, line) < 1.0);
     let costly: Vec<&str> = assignment.rubric.iter().filter(costs).map(|line| line.id.as_str()).collect();
+    if let ([_, _, ..], [_], Some(within)) = (&costly[..], found, inside::feature_of_all(evidence))
+        && costly.contains(&within.as_str())
+    {
+        let is_other = |line: &&RubricLine| line.id != within && !assignment.judges_position(line);
+        return assignment.rubric.iter().filter(is_other).map(|line| line.id.clone()).collect();
+    }
     let spared = computed_of(evidence, &costly);
     if costly.iter().all(|id| spared.iter().any(|own| own == id)) { Vec::new() } else { spared }
 }

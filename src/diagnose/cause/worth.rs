@@ -63,7 +63,7 @@ pub(super) fn charged(assignment: &Assignment, terms: &[TermJudgement], repaired
     lines
 }
 
-/// Those that are about the variable that it is in; else those of which it spoils what they judge, but for terms that are right by
+/// Those that are about the variable that it is in, or the one within whose feature it is; else those of which it spoils what they judge, but for terms that are right by
 /// themselves. Where it spoils none of these, such as a sum, all that are not right.
 fn of_colour(assignment: &Assignment, terms: &[TermJudgement], repaired: &Repaired) -> Vec<String> {
     let is_wrong = |line: &&RubricLine| terms.iter().any(|term| term.line == line.id && !term.is_right());
@@ -77,6 +77,12 @@ fn of_colour(assignment: &Assignment, terms: &[TermJudgement], repaired: &Repair
     };
     let output = repaired.located.name.as_deref().filter(is_read);
     let name = output.or(definition(&repaired.mistake.id));
+    // A change within what a line judges is of that line.
+    if let (None, Some(line)) = (output, &repaired.line)
+        && !name.is_some_and(|name| assignment.is_of_one_line(name))
+    {
+        return vec![line.clone()];
+    }
     let about = name.into_iter().flat_map(|name| assignment.lines_about(name));
     // Where all stands is seen by itself.
     let about: Vec<&RubricLine> = about.filter(is_colour).collect();
@@ -90,10 +96,6 @@ fn of_colour(assignment: &Assignment, terms: &[TermJudgement], repaired: &Repair
         let wrong: Vec<&RubricLine> = about.iter().copied().filter(is_wrong).collect();
         let charged = if wrong.is_empty() { about } else { wrong };
         return charged.into_iter().map(|line| line.id.clone()).collect();
-    }
-    // A change within what a line judges is of that line.
-    if let Some(line) = &repaired.line {
-        return vec![line.clone()];
     }
     let is_spoilt = |line: &&RubricLine| repaired.touches.contains(&line.judges);
     let lines = || assignment.rubric.iter().filter(is_colour);

@@ -8,17 +8,49 @@ use crate::diagnose::addends::{ADDED, OVERFLOWING, passes, raised};
 use crate::diagnose::columns::{ScalarColumns, is_constant, is_equal, is_number, is_same};
 use crate::diagnose::trials::StageChanges;
 use glam::DVec3;
+use reference::assignment::RubricLine;
 use reference::interpreter::trace::{Event, Trace};
 use reference::traced::{Bench, Seen, TracedProgram};
 
 /// The solution with a feature's value or with what is there instead, and the stage and the site of that.
 type FeatureValue = (TracedProgram, Stage, usize);
 
+/// What the value of a line's feature is made of.
+#[derive(Clone, Debug)]
+pub(super) struct FeatureWay {
+    /// The line's id.
+    line: String,
+    /// The value, turn by turn.
+    values: Vec<ScalarColumns>,
+    way: Vec<ScalarColumns>,
+    /// What of that nothing else is made of.
+    own: Vec<ScalarColumns>,
+}
+
+impl FeatureWay {
+    /// Whether another one is made of it.
+    fn leads_to(&self, other: &Self) -> bool {
+        self.values.iter().all(|value| has(&other.way, value))
+    }
+}
+
+fn has(values: &[ScalarColumns], value: &ScalarColumns) -> bool {
+    values.iter().any(|own| is_equal(own, value))
+}
+
+/// Programs with more events are not compared.
+const MOST_EVENTS: usize = 4_000;
+
+/// A loop of more turns is not followed.
+const MOST_TURNS: usize = 16;
+
 /// What a line judges.
 struct Feature {
-    /// What the text may compute: the value, what it has more than what is there without the feature, or what that makes of all.
-    values: Vec<ScalarColumns>,
-    lanes: Vec<bool>,
+    /// What the text may compute, turn by turn of a loop: the value, what it has more than what is there without the feature, or what that
+    /// makes of all.
+    values: Vec<Vec<ScalarColumns>>,
+    /// Where each turn is computed.
+    lanes: Vec<Vec<bool>>,
     /// By how much all that is seen moves when something is added to the value.
     moves: Vec<DVec3>,
 }
@@ -32,31 +64,57 @@ impl Search<'_, '_> {
     /// The ids of those of which it also adds the value to what is seen as it is.
     pub fn added_lines(&self) -> Vec<String> {
         self.lines_with(|search, feature| {
-            search.computing(feature).into_iter().any(|(stage, at)| search.adds(stage, at, feature))
+            search.computing(feature).into_iter().any(|(stage, events)| search.adds(stage, &events, feature))
         })
     }
 
-    /// The id of the line whose feature a value is in: of those on the way of whose value it is, the one with the shortest way.
-    pub fn line_around(&self, value: &ScalarColumns) -> Option<String> {
-        let way = |line: usize| {
-            let [(program, stage, site), _] = self.assignment.feature_values(line)?;
-            let mut bench = Bench::new(self.assignment, &program, self.places, self.in_quads, FUEL_OF_TRACE)?;
+    /// The id of the line within whose feature values are that come of one mistake, in their order: the first one that has such a value to
+    /// itself; none where another feature beside it has. Numbers that are the same everywhere tell nothing.
+    pub fn line_around<'v>(&self, values: impl IntoIterator<Item = &'v ScalarColumns>) -> Option<String> {
+        let ways = self.features.get_or_init(|| self.feature_ways());
+        let of_value = |value: &ScalarColumns| {
+            let around: Vec<&FeatureWay> = ways.iter().filter(|way| has(&way.own, value)).collect();
+            let is_innermost =
+                |way: &&&FeatureWay| around.iter().all(|other| way.line == other.line || way.leads_to(other));
+            around.iter().find(is_innermost).copied()
+        };
+        // Beside a feature of which no value is known, only the first value tells.
+        let is_known = |line: &RubricLine| ways.iter().any(|way| way.line == line.id);
+        let rubric = self.assignment.rubric.iter().enumerate();
+        let all_are_known = rubric
+            .filter(|(number, line)| {
+                self.assignment.features[*number].is_some() && !self.assignment.judges_position(line)
+            })
+            .all(|(_, line)| is_known(line));
+        let values = values.into_iter().take(if all_are_known { usize::MAX } else { 1 });
+        let varying = values.filter(|value| !is_constant(value));
+        let around: Vec<&FeatureWay> = varying.filter_map(of_value).collect();
+        let first = *around.first()?;
+        // One goes into the other, or is a part of it.
+        let is_related = |other: &&FeatureWay| first.leads_to(other) || other.leads_to(first);
+        around.iter().all(is_related).then(|| first.line.clone())
+    }
+
+    fn feature_ways(&self) -> Vec<FeatureWay> {
+        let traced = |program: &TracedProgram, stage: Stage| -> Option<Trace> {
+            let mut bench = Bench::new(self.assignment, program, self.places, self.in_quads, FUEL_OF_TRACE)?;
             let trace = bench.trace(&StageChanges::default())?.1[stage as usize].take()?;
-            let events: Vec<usize> = (0..trace.events.len()).filter(|at| trace.events[*at].site == site).collect();
-            let way = made_of(&trace, &events);
-            let has_it = way.iter().any(|event| is_equal(&trace.events[*event].values, value));
-            has_it.then_some(way.len())
+            Some(trace).filter(|trace| trace.events.len() <= MOST_EVENTS)
+        };
+        let way = |line: &RubricLine, number: usize| {
+            let [(with, stage, site), (without, ..)] = self.assignment.feature_values(number)?;
+            let (with, without) = (traced(&with, stage)?, traced(&without, stage)?);
+            let events: Vec<usize> = (0..with.events.len()).filter(|at| with.events[*at].site == site).collect();
+            let value = |event: usize| with.events[event].values.clone();
+            let way: Vec<ScalarColumns> = made_of(&with, &events).into_iter().map(value).collect();
+            let left = made_of(&without, &roots(&without));
+            let is_left =
+                |value: &ScalarColumns| left.iter().any(|event| is_equal(&without.events[*event].values, value));
+            let own = way.iter().filter(|value| !is_left(value)).cloned().collect();
+            Some(FeatureWay { line: line.id.clone(), values: events.into_iter().map(value).collect(), way, own })
         };
         let rubric = self.assignment.rubric.iter().enumerate();
-        let mut around: Vec<(usize, &str)> =
-            rubric.filter_map(|(number, line)| Some((way(number)?, line.id.as_str()))).collect();
-        around.sort_unstable();
-        match around[..] {
-            [(shortest, id), ref others @ ..] if others.first().is_none_or(|(other, _)| *other > shortest) => {
-                Some(id.to_owned())
-            }
-            _ => None,
-        }
+        rubric.filter_map(|(number, line)| way(line, number)).collect()
     }
 
     fn lines_with(&self, is_it: impl Fn(&Self, &Feature) -> bool) -> Vec<String> {
@@ -71,14 +129,20 @@ impl Search<'_, '_> {
     }
 
     fn feature(&self, [with, without]: &[FeatureValue; 2]) -> Option<Feature> {
-        let (event, moves) = self.value_of(with)?;
+        let (turns, moves) = self.value_of(with)?;
         let (instead, _) = self.value_of(without)?;
+        if turns.len() != instead.len() {
+            return None;
+        }
+        let less = |(own, less): (&Vec<f64>, &Vec<f64>)| own.iter().zip(less).map(|(own, less)| own - less).collect();
+        // One number is the same in all channels.
         let more =
-            |(own, instead): (&Vec<f64>, &Vec<f64>)| own.iter().zip(instead).map(|(own, less)| own - less).collect();
-        let more: ScalarColumns = event.values.iter().zip(&instead.values).map(more).collect();
-        let is_telling = |columns: &ScalarColumns| !is_any_number(columns);
-        let values: Vec<ScalarColumns> = [event.values, more].into_iter().filter(is_telling).collect();
-        let feature = Feature { values, lanes: event.lanes, moves };
+            |(own, instead): (&Event, &Event)| own.values.iter().zip(instead.values.iter().cycle()).map(less).collect();
+        let more: Vec<ScalarColumns> = turns.iter().zip(&instead).map(more).collect();
+        let is_telling = |turns: &Vec<ScalarColumns>| !turns.iter().all(is_any_number);
+        let values = [turns.iter().map(|turn| turn.values.clone()).collect(), more];
+        let values: Vec<Vec<ScalarColumns>> = values.into_iter().filter(is_telling).collect();
+        let feature = Feature { values, lanes: turns.into_iter().map(|turn| turn.lanes).collect(), moves };
         (!feature.values.is_empty()).then_some(feature)
     }
 
@@ -96,57 +160,65 @@ impl Search<'_, '_> {
         let values: ScalarColumns = (0..3).map(channel).collect();
         let is_telling = !is_any_number(&values);
         let moves = vec![DVec3::from(ADDED); more.len()];
-        is_telling.then(|| Feature { values: vec![values], lanes: vec![true; more.len()], moves })
+        is_telling.then(|| Feature { values: vec![vec![values]], lanes: vec![vec![true; more.len()]], moves })
     }
 
     /// The same where the fragment stage is handed what the vertex stage of a right answer computes: of the last corner.
     fn at_the_last_corner(&self, feature: &Feature) -> Option<Feature> {
         let lanes = self.trace(Stage::Fragment)?.events.first()?.lanes.len();
         let is_flat = self.quantities.all.iter().any(|own| own.stage != own.computed_in);
-        let values = feature.values.iter().map(|value| value.iter().map(|own| at_last_corner(own, lanes)).collect());
-        let lanes = at_last_corner(&feature.lanes, lanes);
-        is_flat.then(|| Feature { values: values.collect(), lanes, moves: feature.moves.clone() })
+        let turn = |value: &ScalarColumns| value.iter().map(|own| at_last_corner(own, lanes)).collect();
+        let values = feature.values.iter().map(|turns| turns.iter().map(turn).collect());
+        let at_corner = |turn: &Vec<bool>| at_last_corner(turn, lanes);
+        is_flat.then(|| Feature {
+            values: values.collect(),
+            lanes: feature.lanes.iter().map(at_corner).collect(),
+            moves: feature.moves.clone(),
+        })
     }
 
-    /// The only value of a site, and by how much all that is seen moves when something is added to it.
-    fn value_of(&self, (program, stage, site): &FeatureValue) -> Option<(Event, Vec<DVec3>)> {
+    /// The values of a site, turn by turn, and by how much all that is seen moves when something is added to each.
+    fn value_of(&self, (program, stage, site): &FeatureValue) -> Option<(Vec<Event>, Vec<DVec3>)> {
         let mut bench = Bench::new(self.assignment, program, self.places, self.in_quads, FUEL_OF_TRACE)?;
         let (before, traces) = bench.trace(&StageChanges::default())?;
         let trace = traces[*stage as usize].as_ref()?;
-        let mut events = (0..trace.events.len()).filter(|at| trace.events[*at].site == *site);
-        let (at, None) = (events.next()?, events.next()) else { return None };
-        let after = bench.with(&raised(*stage, trace, at))?;
-        Some((trace.events[at].clone(), moved(&before, &after)))
+        let turns: Vec<usize> = (0..trace.events.len()).filter(|at| trace.events[*at].site == *site).collect();
+        if turns.is_empty() || turns.len() > MOST_TURNS {
+            return None;
+        }
+        let after = bench.with(&raised(*stage, trace, &turns))?;
+        Some((turns.into_iter().map(|at| trace.events[at].clone()).collect(), moved(&before, &after)))
     }
 
-    /// Where the text computes the value.
-    fn computing(&self, feature: &Feature) -> Vec<(Stage, usize)> {
+    /// Where the text computes the value: each time an event for each turn.
+    fn computing(&self, feature: &Feature) -> Vec<(Stage, Vec<usize>)> {
         let handed_over = self.at_the_last_corner(feature);
         let mut found = Vec::new();
         for stage in [Stage::Vertex, Stage::Fragment] {
             let Some(trace) = self.trace(stage) else { continue };
             let alike = std::iter::once(feature).chain(handed_over.as_ref().filter(|_| stage == Stage::Fragment));
-            let is_one = |at: &usize| alike.clone().any(|feature| is_it(&trace.events[*at], feature));
-            found.extend(made_of(trace, &roots(trace)).into_iter().filter(is_one).map(|at| (stage, at)));
+            let way: Vec<usize> = made_of(trace, &roots(trace)).into_iter().collect();
+            found.extend(alike.flat_map(|feature| computing(trace, &way, feature)).map(|events| (stage, events)));
         }
         found
     }
 
-    /// Whether all that is seen moves as a right answer's does when something is added to an event. What is cut off tells nothing.
-    fn adds(&self, stage: Stage, at: usize, feature: &Feature) -> bool {
+    /// Whether all that is seen moves as a right answer's does when something is added to events. What is cut off tells nothing.
+    fn adds(&self, stage: Stage, events: &[usize], feature: &Feature) -> bool {
         let Some(trace) = self.trace(stage) else { return false };
-        let Some(after) = self.seen_raised(stage, trace, at) else { return false };
+        let Some(after) = self.seen_raised(stage, trace, events) else { return false };
         let places = self.own.colours.iter().zip(&after.colours).zip(&feature.moves);
         let passed: Vec<Option<bool>> =
             places.map(|((before, after), wanted)| passes(*before, *after, *wanted)).collect();
         !passed.contains(&Some(false)) && passed.contains(&Some(true))
     }
 
-    fn seen_raised(&self, stage: Stage, trace: &Trace, at: usize) -> Option<Seen> {
-        let event = &trace.events[at];
-        let is_only = trace.events.iter().filter(|other| other.site == event.site).count() == 1;
+    fn seen_raised(&self, stage: Stage, trace: &Trace, events: &[usize]) -> Option<Seen> {
+        let is_own = |(at, event): (usize, &Event)| {
+            events.contains(&at) || !events.iter().any(|own| trace.events[*own].site == event.site)
+        };
         let mut bench = Bench::new(self.assignment, self.theirs, self.places, self.in_quads, FUEL_OF_TRACE)?;
-        if is_only { bench.with(&raised(stage, trace, at)) } else { None }
+        trace.events.iter().enumerate().all(is_own).then(|| bench.with(&raised(stage, trace, events)))?
     }
 }
 
@@ -154,12 +226,36 @@ fn moved(before: &Seen, after: &Seen) -> Vec<DVec3> {
     before.colours.iter().zip(&after.colours).map(|(before, after)| *after - *before).collect()
 }
 
-/// Whether an event is the value. What is nothing need not be computed.
-fn is_it(event: &Event, feature: &Feature) -> bool {
-    let is_value = |value: &ScalarColumns| {
+/// The events on the way of what is seen that are the value, for each time an event for each turn: those of one statement, or one of
+/// each written out.
+fn computing(trace: &Trace, way: &[usize], feature: &Feature) -> Vec<Vec<usize>> {
+    let is_turn = |at: &usize, turn: usize| is_it(&trace.events[*at], feature, turn);
+    let count = feature.lanes.len();
+    if count == 1 {
+        return way.iter().filter(|at| is_turn(at, 0)).map(|at| vec![*at]).collect();
+    }
+    let first = way.iter().filter(|at| is_turn(at, 0));
+    let of_loop = first.filter_map(|first| {
+        let is_same = |at: &&usize| trace.events[**at].site == trace.events[*first].site;
+        let events: Vec<usize> = way.iter().filter(is_same).copied().collect();
+        (events.len() == count && events.iter().enumerate().all(|(turn, at)| is_turn(at, turn))).then_some(events)
+    });
+    let of_loops: Vec<Vec<usize>> = of_loop.collect();
+    if !of_loops.is_empty() {
+        return of_loops;
+    }
+    let written_out = (0..count).map(|turn| way.iter().copied().find(|at| is_turn(at, turn)));
+    written_out.collect::<Option<Vec<usize>>>().into_iter().collect()
+}
+
+/// Whether an event is the value of a turn. What is nothing need not be computed.
+fn is_it(event: &Event, feature: &Feature, turn: usize) -> bool {
+    let lanes_of_right = &feature.lanes[turn];
+    let is_value = |turns: &Vec<ScalarColumns>| {
+        let value = &turns[turn];
         let is_nothing = |lane: usize| value.iter().take(3).all(|column| column[lane] == 0.0);
-        let mut lanes = event.lanes.iter().zip(&feature.lanes).enumerate();
-        event.lanes.len() == feature.lanes.len()
+        let mut lanes = event.lanes.iter().zip(lanes_of_right).enumerate();
+        event.lanes.len() == lanes_of_right.len()
             && lanes.all(|(lane, (own, right))| *own || !right || is_nothing(lane))
             && is_same(event, value)
     };

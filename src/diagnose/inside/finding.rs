@@ -44,12 +44,15 @@ impl Search<'_, '_> {
             true => Vec::new(),
             false => columns.iter().map(|column| column[lane]).collect(),
         };
+        let serves = quantity.and_then(|quantity| self.quantities.served_by(quantity));
+        let is_of_one_line = serves.as_ref().is_some_and(|name| self.assignment.is_of_one_line(name));
         Some(Finding {
             stage,
             line,
             name,
             quantity: quantity.and_then(|quantity| quantity.names.first().cloned()),
-            serves: quantity.and_then(|quantity| self.quantities.served_by(quantity)),
+            feature: if is_of_one_line { None } else { self.line_around(mend.values.first()) },
+            serves,
             is_settled: self.is_settled(mend),
             is_whole: self.is_whole(mend),
             is_telling: (self.is_telling(mend) || flaw != Flaw::Value) && !self.is_start(mend),

@@ -2,6 +2,7 @@
 
 use super::candidates::Mend;
 use super::chain::Chain;
+use super::features::FeatureWay;
 use super::quantities::Quantity;
 use super::walk::{Suspect, made_of, roots, suspects};
 use super::*;
@@ -33,6 +34,8 @@ pub(super) struct Search<'s, 'a> {
     pub base: StageChanges,
     /// The places of several mistakes, once they were looked for.
     pub chain: OnceCell<Chain>,
+    /// What the lines' features are made of, once it was asked for.
+    pub features: OnceCell<Vec<FeatureWay>>,
 }
 
 impl Search<'_, '_> {

@@ -79,7 +79,7 @@ impl Stages {
             let other = |stage| if own.stage == stage { &own.program } else { &self.get(stage).program };
             let linked = Pipeline::link(other(Stage::Vertex), other(Stage::Fragment), None);
             let pipeline = linked.map_err(|what| error(name, what))?;
-            Ok(AcceptedAnswer { name: name.to_owned(), pipeline, replaced: Vec::new(), reading: None })
+            Ok(AcceptedAnswer::new(name, pipeline))
         };
         entries.iter().map(answer).collect()
     }
@@ -102,7 +102,7 @@ impl Stages {
         };
         let (vertex, fragment) = (stage(Stage::Vertex), stage(Stage::Fragment));
         let pipeline = Pipeline::link(&vertex, &fragment, None).map_err(|what| error(place, what))?;
-        Ok(AcceptedAnswer { name: place.to_owned(), pipeline, replaced: Vec::new(), reading: None })
+        Ok(AcceptedAnswer::new(place, pipeline))
     }
 }
 

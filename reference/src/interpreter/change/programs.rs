@@ -6,6 +6,7 @@ use super::{Change, NameScope, Operator, changes, written};
 use crate::interpreter::syntax::{Expression, ExpressionKind, Item, Name, Statement, StatementKind};
 use crate::interpreter::{Program, Refusal, Stage, compile, parse, text};
 use std::collections::HashSet;
+use std::ops::Range;
 
 /// A program with a slip in it.
 pub struct ProgramSlip {
@@ -32,6 +33,8 @@ pub struct ChangedPart {
     pub own: String,
     /// What would stand there; nothing of what is left out altogether.
     pub instead: Option<String>,
+    /// Its bytes in the source, up to where its last word begins; none where they are not known.
+    pub bytes: Option<Range<usize>>,
 }
 
 /// Most slips of a program.
@@ -137,6 +140,7 @@ fn found(items: &[Item], is_part: &dyn Fn(&str) -> bool) -> Vec<PlacedSlip> {
                         lines: (condition.line, condition.line),
                         own: written(condition),
                         instead: Some(holds.to_string()),
+                        bytes: bytes_of(condition),
                     };
                     // Without another branch the statement may be left out, see above.
                     let ways = if no.is_some() { &[true, false][..] } else { &[true] };
@@ -157,7 +161,8 @@ fn found(items: &[Item], is_part: &dyn Fn(&str) -> bool) -> Vec<PlacedSlip> {
                     let [before, after] =
                         [&*own, &change.expression].map(|root| tree::ExpressionPlace::of(root, &change.path).own);
                     let lines = (before.line, before.line);
-                    let part = ChangedPart { lines, own: written(before), instead: Some(written(after)) };
+                    let bytes = bytes_of(before);
+                    let part = ChangedPart { lines, own: written(before), instead: Some(written(after)), bytes };
                     PlacedSlip::Expression(expression, name.cloned(), change, part)
                 }));
                 expression += 1;
@@ -185,7 +190,18 @@ fn part_of(statement: &Statement) -> ChangedPart {
         StatementKind::Break => "break;".to_owned(),
         _ => "discard;".to_owned(),
     };
-    ChangedPart { lines: (statement.line, tree::last_line(statement)), own, instead: None }
+    let bytes = match &statement.kind {
+        StatementKind::Expression(expression) | StatementKind::If(expression, ..) => bytes_of(expression),
+        _ => None,
+    };
+    ChangedPart { lines: (statement.line, tree::last_line(statement)), own, instead: None, bytes }
+}
+
+/// Where the words of an expression begin.
+fn bytes_of(own: &Expression) -> Option<Range<usize>> {
+    let starts = tree::paths(own).into_iter().map(|path| tree::ExpressionPlace::of(own, &path).own.at as usize);
+    let starts: Vec<usize> = starts.filter(|at| *at > 0).collect();
+    Some(*starts.iter().min()?..starts.iter().max()? + 1)
 }
 
 /// Whether a statement may be left out, and the variable that then has no other value.

@@ -43,7 +43,7 @@ pub(super) fn say(said: CheckWording, assignment: &Assignment, probes: &ProbeSet
 
 /// `by_course`: whether answers are judged by their way across edges as well.
 fn text(unseen: &UnseenPart, revealing: Option<&Revealing>, by_course: bool) -> Text {
-    let UnseenPart { file, part: ChangedPart { lines: (line, _), own, instead }, .. } = unseen;
+    let UnseenPart { file, part: ChangedPart { lines: (line, _), own, instead, .. }, .. } = unseen;
     let what = match instead {
         Some(instead) => {
             Text::new(format!("`{instead}` in place of `{own}` shows"), format!("`{own}` を `{instead}` にしても"))

@@ -15,6 +15,9 @@ use reference::interpreter::{Binary, DISCARD, Operator, Program, ProgramRepair, 
 use reference::mistake::Mistake;
 use reference::traced::{Bench, Seen};
 
+/// So many values that come of a change are looked for in the solution.
+const MOST_REACHED: usize = 200;
+
 impl Search<'_, '_> {
     /// What is known of a change.
     pub(super) fn repaired(&self, attempt: &RepairAttempt, (stage, repair): &RepairStep) -> Option<Repaired> {
@@ -44,16 +47,21 @@ impl Search<'_, '_> {
         let definition = definition.filter(|_| !is_of_loop);
         let definition = definition.or_else(|| self.decides_what_is_drawn(attempt, &seen).then(|| DISCARD.to_owned()));
         let mistake = self.assignment.repaired(operator, definition.as_deref(), repair.is_bound_by_zero);
-        let name = marks.and_then(|site| variable(program.sites(), site));
+        let name = marks.and_then(|site| made_for(program.sites(), site));
         Some(Repaired {
             mistake,
             located: Located { line: repair.line, name, role: MistakeOrigin::Wrong, stage: Some(*stage) },
             texts: repair.texts.clone(),
             numbers: None,
-            line: marked_value(program, &trace).filter(|_| !is_of_loop).and_then(|value| self.line_around(value)),
+            line: if is_of_loop { None } else { self.line_of(program, &trace) },
             moves: self.stands_elsewhere(&attempt.seen) && self.is_in_place(&seen),
             touches: definition.map_or_else(Vec::new, |name| self.quantities.spoilt_by(*stage, &name)),
         })
+    }
+
+    /// The line of the rubric within whose feature a change is, by the values that come of it.
+    fn line_of(&self, program: &Program, trace: &Trace) -> Option<String> {
+        self.line_around(reached_values(program, trace).into_iter().take(MOST_REACHED))
     }
 
     /// Whether a place by itself says what is wrong: something is computed there from what is right, and is one of the values of the
@@ -91,7 +99,7 @@ impl Search<'_, '_> {
         let is_judged = |name: &&String| self.assignment.is_judged(name);
         let definition = own.filter(is_judged).cloned().or_else(|| self.judged_operand(mend)).or(own.cloned());
         let mistake = self.assignment.repaired(Operator::Otherwise, definition.as_deref(), false);
-        let line = mend.values.first().and_then(|value| self.line_around(value));
+        let line = self.line_around(mend.values.first());
         Repaired { numbers: finding.numbers(), line, ..self.known_at(mistake, finding) }
     }
 
@@ -174,6 +182,22 @@ impl Search<'_, '_> {
     }
 }
 
+/// The variable that is given what was changed; of what is read, the one that it is read for.
+fn made_for(sites: &[Site], site: usize) -> Option<String> {
+    if !matches!(sites[site].what, What::Read(_)) {
+        return variable(sites, site);
+    }
+    let mut own = site;
+    // Operands stand before what is made of them.
+    while let Some(user) = (own + 1..sites.len()).find(|user| sites[*user].operands.contains(&own)) {
+        if let What::Assign { name, .. } = &sites[user].what {
+            return Some(name.clone());
+        }
+        own = user;
+    }
+    None
+}
+
 /// Whether a whole number is given to a variable, or compared.
 fn is_count(sites: &[Site], site: usize) -> bool {
     let is_whole = matches!(sites[site].kind.scalar(), Some(Scalar::Int | Scalar::Uint));
@@ -187,18 +211,17 @@ fn is_count(sites: &[Site], site: usize) -> bool {
     is_whole && sites.iter().any(|user| user.operands.contains(&site) && counts(&user.what))
 }
 
-/// The value of what was changed; of a number that of the first thing that is computed from it.
-fn marked_value<'t>(program: &Program, trace: &'t Trace) -> Option<&'t ScalarColumns> {
+/// What was changed, and what is computed from it or decided by it, in this order; none that is the same everywhere.
+fn reached_values<'t>(program: &Program, trace: &'t Trace) -> Vec<&'t ScalarColumns> {
     let is_marked = |event: &Event| program.sites()[event.site].line == ProgramRepair::MARK;
-    let last = trace.events.iter().rposition(is_marked)?;
     let mut is_reached: Vec<bool> = trace.events.iter().map(is_marked).collect();
     for (number, event) in trace.events.iter().enumerate() {
-        is_reached[number] |= event.from.iter().any(|from| is_reached[*from]);
-        if number >= last && is_reached[number] && !is_constant(&event.values) {
-            return Some(&event.values);
-        }
+        is_reached[number] |= event.from.iter().chain(&event.under).any(|from| is_reached[*from]);
     }
-    None
+    let last = trace.events.iter().rposition(is_marked).unwrap_or(trace.events.len());
+    let reached =
+        trace.events.iter().zip(is_reached).skip(last).filter(|(event, is)| *is && !is_constant(&event.values));
+    reached.map(|(event, _)| &event.values).collect()
 }
 
 /// Whether a number goes that something is multiplied by, or that is added to it.
