@@ -18,7 +18,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 /// How many samples each homework has. A sample that is lost, and a folder that is no longer walked, are seen here.
-const SAMPLES: [(&str, usize); 30] = [
+const SAMPLES: [(&str, usize); 31] = [
     ("blinn", 190),
     ("bumps", 13),
     ("dunes", 10),
@@ -43,6 +43,7 @@ const SAMPLES: [(&str, usize); 30] = [
     ("rings", 16),
     ("schlick", 191),
     ("several-lights", 184),
+    ("shapes", 16),
     ("spot-directx", 227),
     ("spot-opengl", 218),
     ("spot-soft", 202),
