@@ -47,7 +47,10 @@ impl Search<'_, '_> {
         let definition = definition.filter(|_| !is_of_loop);
         let definition = definition.or_else(|| self.decides_what_is_drawn(attempt, &seen).then(|| DISCARD.to_owned()));
         let mistake = self.assignment.repaired(operator, definition.as_deref(), repair.is_bound_by_zero);
-        let name = marks.and_then(|site| made_for(program.sites(), site));
+        // What another value stands for is what it is used for.
+        let is_used = definition.is_none() || is_of_use(repair.mistake);
+        let name_of = if is_used { made_for } else { variable };
+        let name = marks.and_then(|site| name_of(program.sites(), site));
         Some(Repaired {
             mistake,
             located: Located { line: repair.line, name, role: MistakeOrigin::Wrong, stage: Some(*stage) },
@@ -132,11 +135,7 @@ impl Search<'_, '_> {
         mistake: Operator,
     ) -> Option<(String, bool)> {
         let sites = program.sites();
-        // Another value is the wrong one in what is made of it.
-        let is_of_use = matches!(
-            mistake,
-            Operator::OtherValue | Operator::OtherMatrix | Operator::OtherComponents | Operator::OtherNumber
-        );
+        let is_of_use = is_of_use(mistake);
         let mut is_reached = vec![false; trace.events.len()];
         for (number, event) in trace.events.iter().enumerate() {
             let is_marked = sites[event.site].line == ProgramRepair::MARK;
@@ -180,6 +179,11 @@ impl Search<'_, '_> {
         };
         self.quantities.all.iter().find(is_it)?.names.first().cloned()
     }
+}
+
+/// Whether another value is the wrong one in what is made of it.
+fn is_of_use(mistake: Operator) -> bool {
+    matches!(mistake, Operator::OtherValue | Operator::OtherMatrix | Operator::OtherComponents | Operator::OtherNumber)
 }
 
 /// The variable that is given what was changed; of what is read, the one that it is read for.
