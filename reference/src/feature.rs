@@ -2,6 +2,8 @@
 
 mod within;
 
+pub(crate) use within::FeatureTexts;
+
 use crate::Assignment;
 use crate::accepted::{AcceptedAnswer, Computed};
 use crate::assignment::RubricLine;

@@ -38,6 +38,7 @@ use reference::mistake::FoundMistake;
 use reference::traced::{Bench, Place, Seen, TracedProgram};
 pub(super) use repair::Repaired;
 use search::{Search, is_right};
+use std::cell::OnceCell;
 pub(super) use walk::made_of;
 pub(super) use words::overwrites;
 
@@ -223,6 +224,7 @@ fn within<T: Default>(
         wanted.colours = quantities.replace(assignment, variant, &places, if in_quads { 4 } else { 1 })?;
     }
     let trials = Trials::new(assignment, theirs, &places, in_quads)?;
+    let features = OnceCell::new();
     let mut search = Search {
         evidence,
         assignment,
@@ -237,7 +239,7 @@ fn within<T: Default>(
         count: places.len(),
         base: Default::default(),
         chain: Default::default(),
-        features: Default::default(),
+        features: &features,
     };
     if is_right(&wanted, &own, places.len()) {
         return Some(T::default());

@@ -5,6 +5,7 @@ use crate::Assignment;
 use crate::accepted::{AcceptedAnswer, Computed};
 use crate::assignment::RubricLine;
 use crate::equation::Reads;
+use crate::feature::FeatureTexts;
 use crate::fit::{Alternatives, Footprints, TOLERANCE, channel_agrees};
 use crate::interpreter::{DISCARD, Operator, ProgramSlip, outline, program_slips};
 use crate::mistake::{Condition, FoundMistake, Mistake};
@@ -31,9 +32,10 @@ pub(super) fn mistakes(assignment: &Assignment) -> Vec<Mistake> {
         let own = outline::functions(&file.solution.text);
         let returns = |name: &str| own.iter().any(|function| function.name.text == name);
         let slips = program_slips(&file.solution.text, file.stage, &is_part).unwrap_or_default();
+        let features = FeatureTexts::of(assignment, file);
         for slip in slips {
             let Some(mut answer) = assignment.linked_with(file, slip.program.clone(), &slip.text) else { continue };
-            answer.within = slip.part.bytes.as_ref().and_then(|bytes| assignment.line_with(file, bytes));
+            answer.within = slip.part.bytes.as_ref().and_then(|bytes| features.line(bytes));
             // What a function returns, and what decides what is thrown away, has a name where it is known what it is for.
             let is_variable = |name: &str| !returns(name) && name != DISCARD;
             let is_told = |name: &&String| is_variable(name) || assignment.is_told_apart(name);
@@ -102,16 +104,18 @@ impl Derived {
     /// Whether a line is touched by a program: it is about what is given a value there, and is not where what it judges shows by
     /// itself, and is right there.
     pub(super) fn program_touches(&self, found: &FoundMistake, line: &RubricLine) -> bool {
+        let judges_position = self.assignment.judges_position(line);
+        let program = self.assignment.mistake(&found.id).and_then(|mistake| mistake.program(found.form));
+        let is_of_one_line = || definition(&found.id).is_some_and(|name| self.assignment.is_of_one_line(name));
+        let within = program.and_then(|program| program.within).filter(|_| !judges_position && !is_of_one_line());
+        if let Some(within) = within {
+            return self.assignment.rubric[within].id == line.id;
+        }
         let probes = self.judging.get_or_init(|| self.assignment.judging_probes());
         let Some(shown) = self.shown(found, probes) else { return true };
         let pairs = || probes.iter().zip(&shown);
-        if self.assignment.judges_position(line) {
+        if judges_position {
             return pairs().any(|(probe, (_, position))| (probe.position - *position).abs().max_element() > TOLERANCE);
-        }
-        let program = self.assignment.mistake(&found.id).and_then(|mistake| mistake.program(found.form));
-        let is_of_one_line = || definition(&found.id).is_some_and(|name| self.assignment.is_of_one_line(name));
-        if let Some(within) = program.and_then(|program| program.within).filter(|_| !is_of_one_line()) {
-            return self.assignment.rubric[within].id == line.id;
         }
         let is_right = |(at, channel): (usize, usize)| {
             channel_agrees(probes.probes[at].colour[channel], shown[at].0[channel], TOLERANCE)

@@ -7,33 +7,50 @@ use crate::interpreter::outline::{self, FunctionText};
 use std::collections::BTreeSet;
 use std::ops::Range;
 
-impl Assignment {
-    /// The line of the rubric without whose feature these bytes of a solution's file are not there, or not run: the one with the
-    /// shortest text around them, or the only one whose text calls the function that they stand in.
-    pub(crate) fn line_with(&self, file: &HandedIn, bytes: &Range<usize>) -> Option<usize> {
+/// Where the features of a rubric stand in a solution's file.
+#[derive(Debug)]
+pub(crate) struct FeatureTexts {
+    /// The texts that are not there without a line's feature, with the line's place in the rubric.
+    texts: Vec<(usize, Range<usize>)>,
+    /// The bodies of the functions that are run by the texts of one line alone.
+    functions: Vec<(usize, Range<usize>)>,
+}
+
+impl FeatureTexts {
+    /// Looks for them.
+    pub fn of(assignment: &Assignment, file: &HandedIn) -> Self {
         let text = &file.solution.text;
-        let replaced = |line: usize| -> Vec<Range<usize>> {
-            let Some(Some(Feature::Program(program))) = self.features.get(line) else { return Vec::new() };
-            let range = |[own, _]: &[String; 2]| text.find(own.as_str()).map(|start| start..start + own.len());
+        let replaced = |line: usize| -> Vec<(usize, Range<usize>)> {
+            let Some(Some(Feature::Program(program))) = assignment.features.get(line) else { return Vec::new() };
+            let range = |[own, _]: &[String; 2]| text.find(own.as_str()).map(|start| (line, start..start + own.len()));
             program.replaced.iter().filter_map(range).collect()
         };
-        let all: Vec<(usize, Range<usize>)> = (0..self.rubric.len())
-            .flat_map(|line| replaced(line).into_iter().map(move |range| (line, range)))
-            .collect();
-        let is_around = |(_, range): &&(usize, Range<usize>)| range.start <= bytes.start && bytes.end <= range.end;
-        if let Some((line, _)) = all.iter().filter(is_around).min_by_key(|(_, range)| range.len()) {
-            return Some(*line);
-        }
-        let functions = outline::functions(text);
-        let own = functions.iter().position(|one| one.body.start <= bytes.start && bytes.end <= one.body.end)?;
-        let is_only = |line: &usize| {
-            let within: Vec<&Range<usize>> =
-                all.iter().filter(|(own, _)| own == line).map(|(_, range)| range).collect();
-            let ways = called(text, &functions, &|at| within.iter().any(|range| range.contains(&at)));
-            ways.contains(&(own, true)) && !ways.contains(&(own, false))
+        let texts: Vec<(usize, Range<usize>)> = (0..assignment.rubric.len()).flat_map(replaced).collect();
+        let all = if texts.is_empty() { Vec::new() } else { outline::functions(text) };
+        let lines: BTreeSet<usize> = texts.iter().map(|(line, _)| *line).collect();
+        let ways_of = |line: usize| {
+            let is_within = |at: usize| texts.iter().any(|(own, range)| *own == line && range.contains(&at));
+            (line, called(text, &all, &is_within))
         };
-        let mut lines = (0..self.rubric.len()).filter(is_only);
-        lines.next().filter(|_| lines.next().is_none())
+        let ways: Vec<(usize, BTreeSet<(usize, bool)>)> = lines.into_iter().map(ways_of).collect();
+        let alone = |(number, function): (usize, &FunctionText)| {
+            let is_run = |(_, ways): &&(usize, BTreeSet<(usize, bool)>)| {
+                ways.contains(&(number, true)) && !ways.contains(&(number, false))
+            };
+            let mut lines = ways.iter().filter(is_run);
+            let (line, _) = lines.next().filter(|_| lines.next().is_none())?;
+            Some((*line, function.body.clone()))
+        };
+        let functions = all.iter().enumerate().filter_map(alone).collect();
+        Self { texts, functions }
+    }
+
+    /// The line without whose feature these bytes of the file are not there, or not run: the one with the shortest text around them, or
+    /// the only one whose texts call the function that they stand in.
+    pub fn line(&self, bytes: &Range<usize>) -> Option<usize> {
+        let is_around = |(_, range): &&(usize, Range<usize>)| range.start <= bytes.start && bytes.end <= range.end;
+        let shortest = self.texts.iter().filter(is_around).min_by_key(|(_, range)| range.len());
+        shortest.or_else(|| self.functions.iter().find(is_around)).map(|(line, _)| *line)
     }
 }
 

@@ -63,8 +63,8 @@ pub(super) fn charged(assignment: &Assignment, terms: &[TermJudgement], repaired
     lines
 }
 
-/// Those that are about the variable that it is in, or the one within whose feature it is; else those of which it spoils what they judge, but for terms that are right by
-/// themselves. Where it spoils none of these, such as a sum, all that are not right.
+/// Those that are about the variable that it is in, or the one within whose feature it is; else those of which it spoils what they
+/// judge, but for terms that are right by themselves. Where it spoils none of these, such as a sum, all that are not right.
 fn of_colour(assignment: &Assignment, terms: &[TermJudgement], repaired: &Repaired) -> Vec<String> {
     let is_wrong = |line: &&RubricLine| terms.iter().any(|term| term.line == line.id && !term.is_right());
     // What cannot be judged by itself is not known to be right.

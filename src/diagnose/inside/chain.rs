@@ -79,8 +79,8 @@ impl Search<'_, '_> {
                 return None;
             }
             let trials = Trials::new(self.assignment, self.theirs, self.places, self.in_quads)?;
-            let (chain, features) = (OnceCell::new(), self.features.clone());
-            let after = Search { traces: &traces, own: &own, base: base.clone(), trials, chain, features, ..*self };
+            let chain = OnceCell::new();
+            let after = Search { traces: &traces, own: &own, base: base.clone(), trials, chain, ..*self };
             let link = after.next_link(&mut tries)?;
             base[link.mend.stage as usize].push(link.mend.change());
             found.push(link);

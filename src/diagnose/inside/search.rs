@@ -35,7 +35,7 @@ pub(super) struct Search<'s, 'a> {
     /// The places of several mistakes, once they were looked for.
     pub chain: OnceCell<Chain>,
     /// What the lines' features are made of, once it was asked for.
-    pub features: OnceCell<Vec<FeatureWay>>,
+    pub features: &'s OnceCell<Vec<FeatureWay>>,
 }
 
 impl Search<'_, '_> {

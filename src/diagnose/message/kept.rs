@@ -18,6 +18,8 @@ pub(super) struct KeptLines {
     is_finite_nowhere: OnceCell<bool>,
     /// The lines whose feature shows beside others everywhere, by id.
     never_alone: OnceCell<Vec<String>>,
+    /// Where the features of the lines show.
+    footprints: OnceCell<Footprints>,
     /// How far the lines are right where they show.
     terms: OnceCell<Vec<TermJudgement>>,
 }
@@ -50,13 +52,18 @@ impl KeptLines {
     /// Whether what a line judges shows beside other lines everywhere, so that no probe says that it is right.
     fn is_never_alone(&self, evidence: &Evidence<'_>, line: &RubricLine) -> bool {
         let sought = || {
-            let Evidence { assignment, probes, .. } = *evidence;
-            let footprints = Footprints::of(&Alternatives::new(assignment, probes), COLOUR_TOLERANCE);
+            let footprints = self.footprints(evidence);
             let judged = footprints.judged(&|_| true);
             let open = footprints.lines().filter(|line| !judged.iter().any(|known| known.line == *line));
-            open.map(|line| assignment.rubric[line].id.clone()).collect()
+            open.map(|line| evidence.assignment.rubric[line].id.clone()).collect()
         };
         self.never_alone.get_or_init(sought).contains(&line.id)
+    }
+
+    fn footprints(&self, evidence: &Evidence<'_>) -> &Footprints {
+        let Evidence { assignment, probes, .. } = *evidence;
+        let sought = || Footprints::of(&Alternatives::new(assignment, probes), COLOUR_TOLERANCE);
+        self.footprints.get_or_init(sought)
     }
 
     /// Whether a colour is wrong where a line's feature shows, beside others or not.
@@ -64,8 +71,7 @@ impl KeptLines {
         let Evidence { assignment, probes, .. } = *evidence;
         let own = assignment.rubric.iter().position(|own| own.id == line.id);
         let Some(own) = own.filter(|_| assignment.is_told_by_features()) else { return false };
-        let footprints = Footprints::of(&Alternatives::new(assignment, probes), COLOUR_TOLERANCE);
-        footprints.of_line(own).into_iter().any(|at| {
+        self.footprints(evidence).of_line(own).into_iter().any(|at| {
             let sample = evidence.samples.get(at).map(|sample| DVec3::from(sample.colour_f64()));
             sample.is_none_or(|sample| !is_colour(probes.probes[at].colour, sample))
         })
