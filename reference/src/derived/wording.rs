@@ -160,7 +160,7 @@ impl DefinitionName {
         let known = own.and_then(LectureName::said).or_else(|| only.map(part_called));
         let is_everything = known.is_none();
         // The student's own name for what is computed there says most where there is no other.
-        let plain = known.unwrap_or_else(|| both("⟨`{name}`|the result⟩", "⟨`{name}` |結果⟩"));
+        let plain = known.unwrap_or_else(own_name);
         let named = Text {
             en: format!("{}⟨ (here `{{name}}`)⟩", plain.en),
             ja: format!("{}⟨（ここでは `{{name}}`）⟩", plain.ja),
@@ -220,14 +220,13 @@ fn of_line(assignment: &Assignment, definition: usize) -> Text {
     }
     match definition == equation.colour {
         true => Text { en: "the colour".into(), ja: "色".into() },
-        false => of_name(&equation.definitions[definition].name),
+        false => own_name(),
     }
 }
 
 /// What the student calls it, or else the result.
-fn of_name(name: &str) -> Text {
-    let own = both("⟨`{name}`|the result⟩", "⟨`{name}` |結果⟩");
-    Text { en: own.en.replace("name", name), ja: own.ja.replace("name", name) }
+fn own_name() -> Text {
+    both("⟨`{name}`|the result⟩", "⟨`{name}` |結果⟩")
 }
 
 /// The only line that judges a definition, or that is about it.
