@@ -54,7 +54,7 @@ impl Search<'_, '_> {
             if quantity.is_multiplied_out
                 || quantity.stage != stage
                 || quantity.is_bool != is_bool
-                || quantity.turns[0][0].len() != lanes
+                || quantity.turns[0].first().is_none_or(|column| column.len() != lanes)
             {
                 continue;
             }
