@@ -37,6 +37,20 @@ pub(super) fn warnings(source: &Source, interface: &LinkedInterface) -> Vec<Diag
     warnings
 }
 
+/// The first warning about `source`, one of two stages that are handed in, that its word `smooth` is not in the other's declaration.
+/// The two hand over `variables`.
+pub(super) fn smooth_alone(source: &Source, other: &Source, variables: &[&str], version: i32) -> Option<Diagnostic> {
+    let [code, others] = [source, other].map(|source| text::without_directives(source.code()));
+    let is_in_both = |variable: &str, word: &str| {
+        word != "smooth"
+            || statements(&others).any(|own| own.position(variable).is_some() && own.position(word).is_some())
+    };
+    statements(&code).find_map(|statement| {
+        let of = |variable: &&str| qualifier(source, &statement, version, variable, &|word| is_in_both(variable, word));
+        variables.iter().find_map(of)
+    })
+}
+
 fn warning(source: &Source, (at, word): (usize, &str), message: Text) -> Diagnostic {
     let (line, column) = source.position(at);
     Diagnostic::warning(DiagnosticStage::Compile, message).at(line, Some(column)).spanning(word.len())
@@ -125,7 +139,7 @@ fn differs(qualifier: &str, output: &str) -> Text {
     )
 }
 
-/// What stands before the output and not before the fragment shader's input.
+/// What stands before a variable that one stage hands to the other, and not before it in the other's text.
 fn qualifier(
     source: &Source,
     statement: &CodeStatement<'_>,
@@ -135,7 +149,7 @@ fn qualifier(
 ) -> Option<Diagnostic> {
     let named = statement.position(output)?;
     let before = &statement.words[..named];
-    let is_declaration = before.iter().any(|(_, word)| matches!(*word, "out" | "varying"));
+    let is_declaration = before.iter().any(|(_, word)| matches!(*word, "in" | "out" | "varying"));
     let is_redeclaration = named == 1 && before[0].1 == "invariant";
     if !is_declaration && !is_redeclaration {
         return None;

@@ -2,7 +2,9 @@
 
 use super::module::{self, Built, Shader};
 use super::verdict::{Submitted, compiled, first_pass, linked};
-use super::{LinkedInterface, TranslationRefusal, Variable, boundary, check_text, fixed, gate, interface, text};
+use super::{
+    LinkedInterface, TranslationRefusal, Variable, boundary, check_text, fixed, gate, interface, portability, text,
+};
 use crate::diagnostic::Diagnostic;
 use crate::fault::Fault;
 use crate::ffi::glslang::{Stage, StageText};
@@ -99,6 +101,14 @@ impl HomeworkProgram {
         };
         if let Some((_, source)) = sources.iter().find(|(stage, _)| *stage == Stage::Fragment) {
             boundary::check(&vertex, &fragment, source, self.versions(sources)).map_err(about(Stage::Fragment))?;
+        }
+        if let [(_, first), (_, second)] = sources {
+            let names: Vec<_> = fragment.inputs.iter().map(|input| input.name.as_str()).collect();
+            let version = self.versions(sources);
+            let in_first = portability::smooth_alone(first, second, &names, version).map(|note| (sources[0].0, note));
+            let found =
+                in_first.or_else(|| Some((sources[1].0, portability::smooth_alone(second, first, &names, version)?)));
+            diagnostics.extend(found);
         }
         linked(&verdict, &stages, &own).map_err(about(last))?;
         Ok(Linked { vertex, fragment, diagnostics })

@@ -235,6 +235,28 @@ fn a_fragment_stage_takes_what_the_vertex_stage_hands_over() {
 }
 
 #[test]
+fn a_word_that_only_one_of_two_stages_has_is_warned_of() {
+    let program = program(None);
+    let warned = |out: &str, input: &str, version: &str| {
+        let vertex = format!(
+            "#version {version}\nin vec4 pv;\nuniform mat4 mc;\n{out} vec3 a;\nvoid main() {{ a = pv.xyz; gl_Position = mc * pv; }}\n"
+        );
+        let fragment =
+            format!("#version {version}\n{input} vec3 a;\nout vec4 c;\nvoid main() {{ c = vec4(a, 1.0); }}\n");
+        let read = |stage, text: &str| source::read_stage(stage, "a", text.as_bytes()).expect("a text");
+        let (vertex, fragment) = (read(Stage::Vertex, &vertex), read(Stage::Fragment, &fragment));
+        let linked =
+            program.translate(&[(Stage::Vertex, &vertex), (Stage::Fragment, &fragment)]).expect("both are right");
+        linked.diagnostics.iter().map(|(stage, warning)| (*stage, warning.line)).collect::<Vec<_>>()
+    };
+    assert_eq!(warned("out", "smooth in", "430"), [(Stage::Fragment, Some(2))]);
+    assert_eq!(warned("smooth out", "in", "430"), [(Stage::Vertex, Some(4))]);
+    assert_eq!(warned("smooth out", "smooth in", "430"), []);
+    assert_eq!(warned("out", "in", "430"), []);
+    assert_eq!(warned("out", "smooth in", "440"), []);
+}
+
+#[test]
 fn between_two_stages_that_are_handed_in_the_names_are_free() {
     let program = program(None);
     let vertex = "#version 410\nin vec4 pv;\nuniform mat4 mc;\nout Own { vec3 a; mat3 b; } own;\nout float unread;\n\
