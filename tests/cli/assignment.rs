@@ -117,7 +117,7 @@ fn a_folder_is_shown_as_a_person_reads_it() {
                 "specular-half-unnormalized",
             ],
         ),
-        ("ja", ["グーローシェーディング", "mat4 mc  carries model-view-projection", "合計 100 点", "ダイジェスト"]),
+        ("ja", ["グーローシェーディング", "mat4 mc  役割 model-view-projection", "合計 100 点", "ダイジェスト"]),
     ] {
         let mut command = ggrade();
         let assert = command.args(["assignment", "show", "ggsample06", "--lang", language]).assert().code(0);

@@ -98,7 +98,7 @@ impl AssignmentView<'_> {
         }
         self.head("uniforms", "uniform");
         for uniform in &interface.uniforms {
-            self.item(&format!("{} {}  {}", uniform.kind, uniform.path, fed(uniform)));
+            self.item(&format!("{} {}  {}", uniform.kind, uniform.path, fed(uniform).get(self.language)));
         }
         self.head("outputs", "出力");
         for output in &interface.outputs {
@@ -178,18 +178,26 @@ impl AssignmentView<'_> {
 }
 
 /// Where the value of a uniform comes from.
-fn fed(uniform: &Uniform) -> String {
-    let probe = if uniform.probe.is_some() { ", varies in probes" } else { "" };
+fn fed(uniform: &Uniform) -> Text {
     let given = match &uniform.feed {
-        Feed::Role(role) => format!("carries {}", kebab(&format!("{role:?}"))),
-        Feed::Constant(value) => {
-            let numbers: Vec<_> = value.numbers().iter().map(f64::to_string).collect();
-            numbers.join(" ")
+        Feed::Role(role) => {
+            let role = kebab(&format!("{role:?}"));
+            Text::new(format!("carries {role}"), format!("役割 {role}"))
         }
-        Feed::Expression(_) => "an expression".to_owned(),
-        Feed::Drawn { at_probes: number, .. } | Feed::Texture(number) => format!("texture {}", number + 1),
+        Feed::Constant(value) => {
+            // Kept as the program is given it, which has fewer digits than a double.
+            let numbers: Vec<_> = value.numbers().iter().map(|&number| (number as f32).to_string()).collect();
+            Text::verbatim(numbers.join(" "))
+        }
+        Feed::Expression(_) => Text::new("an expression", "式"),
+        Feed::Drawn { at_probes: number, .. } | Feed::Texture(number) => {
+            Text::new(format!("texture {}", number + 1), format!("テクスチャ {}", number + 1))
+        }
     };
-    format!("{given}{probe}")
+    match uniform.probe {
+        Some(_) => Text::new(format!("{}, varies in probes", given.en), format!("{}、検査点ごとに変わる", given.ja)),
+        None => given,
+    }
 }
 
 /// `ModelView` as folders write it.
