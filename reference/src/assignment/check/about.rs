@@ -76,7 +76,7 @@ fn belongs(flow: &Flow<'_>, replaced: &[[String; 2]]) -> Option<Belongs> {
         let is_replaced = |word: &Word| word.range.start < start + value.len() && start < word.range.end;
         let mut gone = words(value);
         for statement in &own.text.statements {
-            let is_decided_by_it = statement.under.iter().any(is_replaced);
+            let is_decided_by_it = deciding(&statement.under).any(is_replaced);
             let throws_away = statement.words.iter().any(|word| word.text == DISCARD && is_replaced(word));
             belongs.throws_away |= throws_away;
             if is_decided_by_it || throws_away {
@@ -99,6 +99,19 @@ fn belongs(flow: &Flow<'_>, replaced: &[[String; 2]]) -> Option<Belongs> {
     let is_own = |node: &Node| flow.is_computed(node) && !belongs.given.contains(node);
     belongs.gone.retain(is_own);
     Some(belongs)
+}
+
+/// The words that decide whether a statement is done at all. How often a loop goes round decides of no one value in it.
+fn deciding(under: &[Word]) -> impl Iterator<Item = &Word> {
+    let mut is_loop = false;
+    under.iter().filter(move |word| {
+        match word.text.as_str() {
+            "for" | "while" => is_loop = true,
+            "if" | "switch" => is_loop = false,
+            _ => {}
+        }
+        !is_loop
+    })
 }
 
 /// What the colour is made of without all features.

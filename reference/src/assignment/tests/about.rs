@@ -44,3 +44,21 @@ fn a_function_has_what_it_is_given_from_elsewhere() {
     folder.files.insert(MANIFEST.into(), format!("{}{rubric}", &manifest[..start]).into());
     assert_eq!(about(folder), ["wave: at colour light wave", "tone: colour hdr mapped sum"]);
 }
+
+#[test]
+fn how_often_a_loop_goes_round_is_about_no_value_in_it() {
+    let solution = "#version 330 core\nuniform vec3 iResolution;\nuniform float iTime;\nout vec4 colour;\n\
+        void main() { vec2 at = gl_FragCoord.xy / iResolution.xy; float sum = 0.0; for (int i = 0; i < 3; i++) \
+        { float wave = sin(float(i) + at.x + iTime); sum += wave; } colour = vec4(vec3(0.5 + 0.1 * sum), 1.0); }\n";
+    let rubric = "[[rubric]]\nid = \"turns\"\npoints = 50\nlabel = { en = \"Turns\", ja = \"回数\" }\n\
+        without = { replace = [[\"i < 3\", \"i < 1\"]] }\n\n[[rubric]]\nid = \"wave\"\npoints = 50\n\
+        label = { en = \"Wave\", ja = \"波\" }\nwithout = { replace = [[\"sin(float(i) + at.x + iTime)\", \"0.0\"]] }\n";
+    let mut folder = homework("rings");
+    folder.files.insert("solution.frag".into(), solution.into());
+    let manifest = folder.text(MANIFEST).expect("a manifest").to_owned();
+    let start = manifest.find("[[rubric]]").expect("a rubric");
+    folder.files.insert(MANIFEST.into(), format!("{}{rubric}", &manifest[..start]).into());
+    let about = about(folder);
+    assert_eq!(about[0], "turns: ");
+    assert!(about[1].contains(" wave"), "{about:?}");
+}
