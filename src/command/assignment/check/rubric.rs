@@ -14,7 +14,8 @@ use reference::rasteriser::Frame;
 /// So many names of a solution are said of a line.
 const MOST_NAMES: usize = 4;
 
-/// Says it line by line, and where an answer may be wrong though no line looks there.
+/// Says it line by line, and where an answer may be wrong though no line looks there. Returns whether the solution without a line's
+/// feature shows something else wherever there is a feature.
 pub(super) fn say(
     said: CheckWording,
     assignment: &Assignment,
@@ -22,7 +23,8 @@ pub(super) fn say(
     probes: &ProbeSet,
     right: &[Frame],
     album: &Album<'_>,
-) -> Result<(), Fault> {
+) -> Result<bool, Fault> {
+    let mut all_show = true;
     let footprints = Footprints::of(alternatives, fit::TOLERANCE);
     let with_feature: Vec<usize> = footprints.lines().collect();
     // Where all is right, each line is judged that can be judged at all.
@@ -37,6 +39,22 @@ pub(super) fn say(
         let seen = frames.as_deref().map(|frames| seen(frames, right));
         let place = place(probes, shows, seen, right.len());
         match judged_at(&judged, number) {
+            _ if shows == 0 && seen == Some(0) => {
+                all_show = false;
+                said.line(
+                    false,
+                    &Text::new(
+                        format!(
+                            "rubric line `{id}`: its `without` shows what the solution shows, {}; change it",
+                            place.en
+                        ),
+                        format!(
+                            "採点の行 `{id}`: `without` を施しても解答と同じ結果です ({})。変えてください",
+                            place.ja
+                        ),
+                    ),
+                );
+            }
             0 => said.note(&beside_others(line, &place)),
             at => said.ok(&Text::new(
                 format!("rubric line `{id}`: shows {}; judged at {at} of the probes", place.en),
@@ -46,7 +64,7 @@ pub(super) fn say(
         album.put(&format!("without-{id}"), frames.iter().flatten().map(picture).collect())?;
     }
     say_unjudged(said, footprints.unjudged(alternatives).len(), probes.probes.len());
-    Ok(())
+    Ok(all_show)
 }
 
 fn judged_at(judged: &[JudgedLine], line: usize) -> usize {

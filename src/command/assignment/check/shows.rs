@@ -16,12 +16,12 @@ pub(super) fn say(said: CheckWording, assignment: &Assignment, album: &Album<'_>
     let probes = assignment.judging_probes();
     let alternatives = fit::Alternatives::new(assignment, &probes);
     let right = assignment.frames();
-    rubric::say(said, assignment, &alternatives, &probes, &right, album)?;
+    let all_show = rubric::say(said, assignment, &alternatives, &probes, &right, album)?;
     for mistake in assignment.mistakes.iter().filter(|mistake| mistake.ways() > 0) {
         say_mistake(said, assignment, mistake, &probes, &right, album)?;
     }
     unseen::say(said, assignment, &probes, &right);
-    Ok(say_alike(said, &alternatives))
+    Ok(say_alike(said, &alternatives) && all_show)
 }
 
 /// Says where a mistake shows in the first way in which it is written, and draws each.
