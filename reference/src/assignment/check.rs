@@ -10,6 +10,7 @@ mod host;
 mod interface;
 mod meshes;
 mod mistakes;
+mod moving;
 mod names;
 mod passes;
 mod probing;
@@ -128,6 +129,7 @@ pub(super) fn assignment(
     about::complete(&mut assignment);
     probing::lobe_is_known(&assignment)?;
     answers::are_defined(&assignment)?;
+    moving::complete(&mut assignment);
     assignment.probing.takes_backs = assignment.shows_backs();
     Ok(assignment)
 }

@@ -20,7 +20,7 @@ pub(super) const fn part_id(part: FeatureDefect) -> &'static str {
 /// Fraction of the line's points that the mistake leaves in this answer.
 pub fn kept(assignment: &Assignment, line: &RubricLine, shape: bool, cause: &Cause, id: &str) -> f64 {
     let is_touched = match (cause, id) {
-        (_, POSITION_CHANGED) => !shape && assignment.judges_position(line),
+        (_, POSITION_CHANGED) => !shape,
         (Cause::Unexplained { absent, .. }, PART_ABSENT) => absent.contains(&line.id),
         (Cause::Unexplained { absent, .. }, _) if absent.contains(&line.id) => false,
         // What cannot be judged by itself is not known to be right.

@@ -8,6 +8,7 @@ use crate::pictures::picture;
 use reference::Assignment;
 use reference::assignment::{MANIFEST, RubricLine};
 use reference::fit::{self, Footprints, JudgedLine};
+use reference::interpreter::Stage;
 use reference::probes::ProbeSet;
 use reference::rasteriser::Frame;
 
@@ -62,6 +63,14 @@ pub(super) fn say(
             )),
         }
         album.put(&format!("without-{id}"), frames.iter().flatten().map(picture).collect())?;
+    }
+    if assignment.hands_in(Stage::Vertex) && !assignment.rubric.iter().any(|line| assignment.judges_position(line)) {
+        said.note(&Text::new(
+            "no line of the rubric judges where things stand: what moves them costs the lines whose feature moves something, or half of \
+             every line where none does. Write `judges = \"gl_Position\"` in the line that it is to cost",
+            "位置 (`gl_Position`) を採点する行がない。位置が違う答えでは、位置を動かす機能の行の点を引き、そのような行がなければすべての行の半分を引く。\
+             引きたい行に `judges = \"gl_Position\"` と書く",
+        ));
     }
     say_unjudged(said, footprints.unjudged(alternatives).len(), probes.probes.len());
     Ok(all_show)
