@@ -117,6 +117,9 @@ impl Derived {
     fn changes(&self, found: &FoundMistake, line: &RubricLine) -> bool {
         let equation = &self.assignment.equation;
         let Some(judged) = equation.index(&line.judges) else { return true };
+        if self.assignment.is_beside_terms(line) {
+            return false;
+        }
         let Some(wrong) = self.assignment.variant(std::slice::from_ref(found)) else { return true };
         let right = equation.right();
         self.places.iter().any(|(uniforms, attributes)| {

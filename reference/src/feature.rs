@@ -48,6 +48,15 @@ impl Assignment {
         has_none && !self.judges_position(line) && self.features.iter().any(Option::is_some)
     }
 
+    /// Whether a line judges all that is seen while others judge definitions, such as terms: then a mistake changes what it judges
+    /// wherever it stands, which says nothing.
+    pub fn is_beside_terms(&self, line: &RubricLine) -> bool {
+        let colour = &self.equation.definitions[self.equation.colour].name;
+        let judges_a_term =
+            |other: &RubricLine| other.judges != *colour && !self.judges_position(other) && other.id != line.id;
+        line.judges == *colour && self.rubric.iter().any(judges_a_term)
+    }
+
     /// Whether what lines judge is known by the solution without it, and not by definitions.
     pub fn is_told_by_features(&self) -> bool {
         self.equation.reads() == Reads::Outputs || self.has_features_alone()

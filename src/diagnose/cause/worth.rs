@@ -97,7 +97,7 @@ fn of_colour(assignment: &Assignment, terms: &[TermJudgement], repaired: &Repair
         let charged = if wrong.is_empty() { about } else { wrong };
         return charged.into_iter().map(|line| line.id.clone()).collect();
     }
-    let is_spoilt = |line: &&RubricLine| repaired.touches.contains(&line.judges);
+    let is_spoilt = |line: &&RubricLine| repaired.touches.contains(&line.judges) && !assignment.is_beside_terms(line);
     let lines = || assignment.rubric.iter().filter(is_colour);
     let choices: [Vec<&RubricLine>; 3] = [
         lines().filter(|line| !is_right(line) && is_spoilt(line)).collect(),

@@ -71,6 +71,10 @@ impl Search<'_, '_> {
     /// The id of the line within whose feature values are that come of one mistake, in their order: the first one that has such a value to
     /// itself; none where another feature beside it has. Numbers that are the same everywhere tell nothing.
     pub fn line_around<'v>(&self, values: impl IntoIterator<Item = &'v ScalarColumns>) -> Option<String> {
+        // All goes through what a line judges by a definition, such as a term.
+        if !self.assignment.is_told_by_features() {
+            return None;
+        }
         let ways = self.features.get_or_init(|| self.feature_ways());
         let of_value = |value: &ScalarColumns| {
             let around: Vec<&FeatureWay> = ways.iter().filter(|way| has(&way.own, value)).collect();
