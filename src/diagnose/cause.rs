@@ -17,7 +17,7 @@ use reference::Assignment;
 use reference::assignment::RubricLine;
 use reference::derived::{definition, is_derived};
 use reference::equation::{DISCARDED, Reads};
-use reference::fit::{Alternatives, FeatureExplanation, TermJudgement, judge_terms};
+use reference::fit::{Alternatives, FeatureDefect, FeatureExplanation, TermJudgement, judge_terms};
 use reference::mistake::{FoundMistake, Mistake};
 
 pub(super) use search::{cause, is_there, leaves_little};
@@ -159,8 +159,17 @@ impl Cause {
         if absent_lines.map(left).sum::<f64>() < 1.0 {
             return self;
         }
+        let findings = inside::find(evidence);
+        // What lacks these parts may be right otherwise.
+        if let Some(Self::Parts(mut lacking)) = unexplained::lacking(assignment, &findings) {
+            let is_known = |line: &usize| lacking.parts.iter().any(|(known, _)| known == line);
+            let lines = (0..assignment.rubric.len()).filter(|line| absent.contains(&assignment.rubric[*line].id));
+            let more: Vec<usize> = lines.filter(|line| !is_known(line)).collect();
+            lacking.parts.extend(more.into_iter().map(|line| (line, FeatureDefect::Missing)));
+            return Self::Parts(lacking);
+        }
         let terms = terms.clone();
-        Self::Unexplained { terms, findings: inside::find(evidence), absent }
+        Self::Unexplained { terms, findings, absent }
     }
 
     /// Whether the text computes right what a derived mistake would have wrong, where only all together is seen.

@@ -4,14 +4,14 @@ use super::search::{is_dark, is_there};
 use super::{Cause, spared, with_constants, worth};
 use crate::compare::COLOUR_TOLERANCE;
 use crate::diagnose::constants::{self, ChangedConstant};
-use crate::diagnose::inside::{self, Repaired};
+use crate::diagnose::inside::{self, Finding, Flaw, Repaired};
 use crate::diagnose::listed::Listed;
 use crate::diagnose::locate::{self, TracedProbes};
 use crate::diagnose::{Evidence, addends, plain};
 use reference::Assignment;
 use reference::fit::{
-    Alternatives, FeatureExplanation, Fit, MOST_MISTAKES, TermJudgement, explain_derived, explain_parts, judge_factor,
-    judge_features, programs_of,
+    Alternatives, FeatureDefect, FeatureExplanation, Fit, MOST_MISTAKES, TermJudgement, explain_derived, explain_parts,
+    judge_factor, judge_features, programs_of,
 };
 use reference::mistake::FoundMistake;
 use reference::probes::ProbeSet;
@@ -68,6 +68,9 @@ pub(super) fn unexplained(
 ) -> Cause {
     let Evidence { assignment, probes, .. } = *evidence;
     let others = match begun.unwrap_or_else(|| alone(evidence, alternatives, samples)) {
+        Ok(cause) if cause.is_of_several_terms(assignment) => {
+            return lacking(assignment, &inside::find(evidence)).unwrap_or(cause);
+        }
         Ok(cause) => return cause,
         Err(others) => others,
     };
@@ -85,6 +88,11 @@ pub(super) fn unexplained(
     {
         return cause;
     }
+    // Several terms that are not added are several mistakes, though one change of the text adds them all.
+    let is_one = |cause: &Cause| matches!(cause, Cause::Parts(own) if own.parts.len() == 1);
+    if let Some(cause) = lacking(assignment, &findings).filter(|cause| repairs.is_empty() || !is_one(cause)) {
+        return cause;
+    }
     let terms = match judge_factor(assignment, probes, samples, COLOUR_TOLERANCE) {
         Some(terms) => terms,
         None => {
@@ -99,6 +107,15 @@ pub(super) fn unexplained(
         return sought.unwrap_or_else(several).unwrap_or(Cause::unexplained(terms, findings));
     }
     Cause::Repaired(repairs)
+}
+
+/// That parts are missing: a sum at the one place of a mistake lacks terms, each of which a line judges, and is right otherwise.
+pub(super) fn lacking(assignment: &Assignment, findings: &[Finding]) -> Option<Cause> {
+    let [Finding { flaw: Flaw::Lacks(_) | Flaw::Overwrites, touches: missing, .. }] = findings else { return None };
+    let judges = |name: &String| assignment.rubric.iter().position(|line| line.judges == *name);
+    let lines: Vec<usize> = missing.iter().map(judges).collect::<Option<_>>()?;
+    let parts: Vec<_> = lines.into_iter().map(|line| (line, FeatureDefect::Missing)).collect();
+    (!parts.is_empty()).then_some(Cause::Parts(FeatureExplanation { found: Vec::new(), parts }))
 }
 
 /// The judgements; of a line with a feature it is judged where that shows.

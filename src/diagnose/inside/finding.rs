@@ -3,7 +3,7 @@
 use super::candidates::Mend;
 use super::quantities::Quantity;
 use super::search::Search;
-use super::walk::made_of;
+use super::walk::{Suspect, made_of};
 use super::{Finding, Flaw, Stage, What, variable};
 use crate::diagnose::columns::{ScalarColumns, is_same};
 use reference::interpreter::Scalar;
@@ -68,6 +68,14 @@ impl Search<'_, '_> {
         })
     }
 
+    /// The last place that is given a sum of right terms which lacks some, and is right with all of them.
+    pub(super) fn lacking_sum(&mut self, places: &[(Stage, Suspect)]) -> Option<Mend> {
+        let is_given = |(stage, one): &&(Stage, Suspect)| matches!(self.site(*stage, one).what, What::Assign { .. });
+        let given: Vec<&(Stage, Suspect)> = places.iter().rev().filter(is_given).collect();
+        let mend = given.into_iter().find_map(|(stage, one)| self.mend_at(*stage, one))?;
+        self.missing_in(&mend).is_some().then_some(mend)
+    }
+
     /// What a place lacks of a sum.
     pub(super) fn missing_in(&self, mend: &Mend) -> Option<Vec<String>> {
         let trace = self.trace(mend.stage)?;
@@ -96,7 +104,17 @@ impl Search<'_, '_> {
             total
         };
         let all = (1_usize << addends.len()) - 1;
-        let chosen = (0..all).find(|chosen| is_same(event, &sum(*chosen)))?;
+        // What a colour has as alpha is often written beside the sum.
+        let mut colour = event.clone();
+        colour.values.truncate(3);
+        let is_it = |chosen: &usize| {
+            let mut sum = sum(*chosen);
+            is_same(event, &sum) || {
+                sum.truncate(3);
+                is_same(&colour, &sum)
+            }
+        };
+        let chosen = (0..all).find(is_it)?;
         let missing = addends.iter().enumerate().filter(|(at, _)| chosen >> at & 1 == 0);
         missing.map(|(_, (name, _))| name.clone()).collect()
     }

@@ -125,7 +125,13 @@ impl Search<'_, '_> {
         let giver = givers.iter().find_map(|(stage, one)| self.mend_at(*stage, one));
         // Where the next step makes of it what it should be, and fails, that step is to blame.
         let is_same_end = |giver: &Mend| first.as_ref().is_some_and(|first| first.quantity == giver.quantity);
-        if let Some(giver) = giver.filter(|giver| !is_same_end(giver)) {
+        // A sum that lacks terms is to blame, and not what it has, to which they could be added.
+        let lack = if first.is_none() { self.lacking_sum(&own) } else { None };
+        if lack.is_some() {
+            return lack;
+        }
+        let is_lack = first.as_ref().is_some_and(|first| self.missing_in(first).is_some());
+        if let Some(giver) = giver.filter(|giver| !is_same_end(giver) && !is_lack) {
             return Some(self.beginning(&giver).unwrap_or(giver));
         }
         if let Some(first) = first {
@@ -219,7 +225,7 @@ impl Search<'_, '_> {
     }
 
     /// What has to stand in a place for all to be right, where the place is to blame.
-    fn mend_at(&mut self, stage: Stage, suspect: &Suspect) -> Option<Mend> {
+    pub(super) fn mend_at(&mut self, stage: Stage, suspect: &Suspect) -> Option<Mend> {
         let all = self.candidates(stage, suspect);
         let all: Vec<Mend> = all.into_iter().filter(|mend| self.is_to_blame(mend)).collect();
         let found = all.into_iter().find(|mend| self.mends(mend))?;
