@@ -24,8 +24,9 @@ use std::time::{Duration, Instant};
 /// How long a worker may take to open its device.
 const START_DEADLINE: Duration = Duration::from_secs(10);
 
-/// How long a worker may take to read an assignment: its pictures may be shaded pixel by pixel, on a busy machine.
-const LOAD_DEADLINE: Duration = Duration::from_secs(60);
+/// How long a worker may take to read an assignment: its pictures may be shaded pixel by pixel. It has two minutes of processor time, and
+/// on a busy machine half a processor.
+const LOAD_DEADLINE: Duration = Duration::from_secs(240);
 
 /// The longest packed pictures.
 const PICTURES_BYTES: usize = 128 << 20;
