@@ -166,7 +166,7 @@ pub fn code(bytes: &[u8]) -> Option<String> {
 
 fn decode(bytes: &[u8]) -> Result<encoding::Decoded, Box<Diagnostic>> {
     if bytes.len() > MAX_BYTES {
-        return Err(Box::new(too_large(bytes.len())));
+        return Err(Box::new(too_large()));
     }
     if let Some(error) = kind::binary(bytes) {
         return Err(Box::new(error));
@@ -254,17 +254,17 @@ pub(crate) fn words(code: &str) -> impl Iterator<Item = (usize, &str)> {
     })
 }
 
-fn too_large(bytes: usize) -> Diagnostic {
-    let (kib, limit) = (bytes.div_ceil(1024), MAX_BYTES / 1024);
+fn too_large() -> Diagnostic {
+    let limit = MAX_BYTES / 1024;
     Diagnostic::error(
         crate::diagnostic::DiagnosticStage::Source,
         Text::new(
-            format!("The file has {kib} KiB; at most {limit} KiB are read."),
-            format!("ファイルの大きさが {kib} KiB あります。受け付けられるのは {limit} KiB までです。"),
+            format!("The file is too large: at most {limit} KiB are read."),
+            format!("ファイルが大きすぎます。受け付けられるのは {limit} KiB までです。"),
         ),
     )
     .hint(Text::new(
-        "A vertex shader has a few kilobytes. Is this the right file?",
-        "頂点シェーダのソースは数 KiB ほどです。別のファイルを選んでいないか確かめてください。",
+        "A shader has a few kilobytes. Is this the right file?",
+        "シェーダのソースは数 KiB ほどです。別のファイルを選んでいないか確かめてください。",
     ))
 }
