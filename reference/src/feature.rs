@@ -52,8 +52,7 @@ impl Assignment {
     /// wherever it stands, which says nothing.
     pub fn is_beside_terms(&self, line: &RubricLine) -> bool {
         let colour = &self.equation.definitions[self.equation.colour].name;
-        let judges_a_term =
-            |other: &RubricLine| other.judges != *colour && !self.judges_position(other) && other.id != line.id;
+        let judges_a_term = |other: &RubricLine| other.judges != *colour && !self.judges_position(other);
         line.judges == *colour && self.rubric.iter().any(judges_a_term)
     }
 

@@ -38,6 +38,14 @@ fn changed(mut folder: Folder, file: &str, from: &str, to: &str) -> Folder {
     folder
 }
 
+/// A folder with another rubric in place of all that stands from the first line of its own on.
+fn with_rubric(mut folder: Folder, rubric: &str) -> Folder {
+    let manifest = folder.text(MANIFEST).expect("a manifest").to_owned();
+    let start = manifest.find("[[rubric]]").expect("a rubric");
+    folder.files.insert(MANIFEST.into(), format!("{}{rubric}", &manifest[..start]).into());
+    folder
+}
+
 fn refused(folder: Folder) -> Text {
     AssignmentError { column: None, ..Assignment::load(folder).expect_err("a broken folder") }.text()
 }

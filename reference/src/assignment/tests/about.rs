@@ -1,13 +1,20 @@
 //! What lines of the rubric are about, by what the solution lacks without them.
 
-use super::homework;
+use super::{homework, with_rubric};
 use crate::Folder;
-use crate::assignment::{Assignment, MANIFEST};
+use crate::assignment::Assignment;
 
 /// What each line of a homework is about, in the rubric's order.
 fn about(folder: Folder) -> Vec<String> {
     let assignment = Assignment::load(folder).unwrap_or_else(|error| panic!("{error}"));
     assignment.rubric.iter().map(|line| format!("{}: {}", line.id, line.variables.join(" "))).collect()
+}
+
+/// The homework of rings with another solution and another rubric.
+fn rings(solution: &str, rubric: &str) -> Folder {
+    let mut folder = homework("rings");
+    folder.files.insert("solution.frag".into(), solution.into());
+    with_rubric(folder, rubric)
 }
 
 #[test]
@@ -37,12 +44,7 @@ fn a_function_has_what_it_is_given_from_elsewhere() {
     let rubric = "[[rubric]]\nid = \"wave\"\npoints = 50\nlabel = { en = \"Wave\", ja = \"波\" }\n\
         without = { replace = [[\" + wave\", \"\"]] }\n\n[[rubric]]\nid = \"tone\"\npoints = 50\n\
         label = { en = \"Tone\", ja = \"階調\" }\nwithout = { replace = [[\"mapped(light)\", \"light\"]] }\n";
-    let mut folder = homework("rings");
-    folder.files.insert("solution.frag".into(), solution.into());
-    let manifest = folder.text(MANIFEST).expect("a manifest").to_owned();
-    let start = manifest.find("[[rubric]]").expect("a rubric");
-    folder.files.insert(MANIFEST.into(), format!("{}{rubric}", &manifest[..start]).into());
-    assert_eq!(about(folder), ["wave: at colour light wave", "tone: colour hdr mapped sum"]);
+    assert_eq!(about(rings(solution, rubric)), ["wave: at colour light wave", "tone: colour hdr mapped sum"]);
 }
 
 #[test]
@@ -53,12 +55,7 @@ fn how_often_a_loop_goes_round_is_about_no_value_in_it() {
     let rubric = "[[rubric]]\nid = \"turns\"\npoints = 50\nlabel = { en = \"Turns\", ja = \"回数\" }\n\
         without = { replace = [[\"i < 3\", \"i < 1\"]] }\n\n[[rubric]]\nid = \"wave\"\npoints = 50\n\
         label = { en = \"Wave\", ja = \"波\" }\nwithout = { replace = [[\"sin(float(i) + at.x + iTime)\", \"0.0\"]] }\n";
-    let mut folder = homework("rings");
-    folder.files.insert("solution.frag".into(), solution.into());
-    let manifest = folder.text(MANIFEST).expect("a manifest").to_owned();
-    let start = manifest.find("[[rubric]]").expect("a rubric");
-    folder.files.insert(MANIFEST.into(), format!("{}{rubric}", &manifest[..start]).into());
-    let about = about(folder);
+    let about = about(rings(solution, rubric));
     assert_eq!(about[0], "turns: ");
     assert!(about[1].contains(" wave"), "{about:?}");
 }

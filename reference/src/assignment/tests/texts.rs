@@ -79,9 +79,6 @@ fn what_goes_wrong_in_any_homework_has_texts_until_a_folder_has_its_own() {
 #[test]
 fn where_no_line_judges_the_position_the_lines_pay_whose_feature_moves_something() {
     let kept = |lines: [&str; 2]| {
-        let mut folder = homework("waves");
-        let manifest = folder.text(MANIFEST).expect("a manifest").to_owned();
-        let start = manifest.find("[[rubric]]").expect("a rubric");
         let line = |(at, replace): (usize, &str)| {
             format!(
                 "[[rubric]]\nid = \"line{at}\"\npoints = 50\nlabel = {{ en = \"Line\", ja = \"行\" }}\n\
@@ -89,8 +86,8 @@ fn where_no_line_judges_the_position_the_lines_pay_whose_feature_moves_something
             )
         };
         let lines: String = lines.into_iter().enumerate().map(line).collect();
-        folder.files.insert(MANIFEST.into(), format!("{}{lines}", &manifest[..start]).into());
-        let assignment = Assignment::load(folder).unwrap_or_else(|error| panic!("{error}"));
+        let assignment =
+            Assignment::load(with_rubric(homework("waves"), &lines)).unwrap_or_else(|error| panic!("{error}"));
         ["line0", "line1"].map(|id| assignment.mistake("position-changed").expect("general").keeps(id))
     };
     assert_eq!(kept(["height(waves[0], position.xz)", "0.4"]), [0.0, 1.0]);
