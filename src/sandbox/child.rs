@@ -24,8 +24,7 @@ use std::time::{Duration, Instant};
 /// How long a worker may take to open its device.
 const START_DEADLINE: Duration = Duration::from_secs(10);
 
-/// How long a worker may take to read an assignment: its pictures may be shaded pixel by pixel. It has two minutes of processor time, and
-/// on a busy machine half a processor.
+/// How long a worker may take to read an assignment, for which it has two minutes of processor time and, on a busy machine, half of one.
 const LOAD_DEADLINE: Duration = Duration::from_secs(240);
 
 /// The longest packed pictures.

@@ -70,8 +70,8 @@ impl Search<'_, '_> {
 
     /// The last place that is given a sum of right terms which lacks some, and is right with all of them.
     pub(super) fn lacking_sum(&mut self, places: &[(Stage, Suspect)]) -> Option<Mend> {
-        let is_given = |(stage, one): &&(Stage, Suspect)| matches!(self.site(*stage, one).what, What::Assign { .. });
-        let given: Vec<&(Stage, Suspect)> = places.iter().rev().filter(is_given).collect();
+        let given = places.iter().rev().filter(|(stage, one)| self.is_assignment(*stage, one));
+        let given: Vec<&(Stage, Suspect)> = given.collect();
         let mend = given.into_iter().find_map(|(stage, one)| self.mend_at(*stage, one))?;
         self.missing_in(&mend).is_some().then_some(mend)
     }

@@ -120,16 +120,16 @@ impl Search<'_, '_> {
         if let Some(literal) = first.as_ref().filter(|mend| is_literal(mend)) {
             return Some(literal.clone());
         }
-        let givers = own.iter().filter(|(stage, one)| one.gives_right && self.is_assignment(*stage, one));
-        let givers: Vec<(Stage, Suspect)> = givers.cloned().collect();
-        let giver = givers.iter().find_map(|(stage, one)| self.mend_at(*stage, one));
-        // Where the next step makes of it what it should be, and fails, that step is to blame.
-        let is_same_end = |giver: &Mend| first.as_ref().is_some_and(|first| first.quantity == giver.quantity);
         // A sum that lacks terms is to blame, and not what it has, to which they could be added.
         let lack = if first.is_none() { self.lacking_sum(&own) } else { None };
         if lack.is_some() {
             return lack;
         }
+        let givers = own.iter().filter(|(stage, one)| one.gives_right && self.is_assignment(*stage, one));
+        let givers: Vec<(Stage, Suspect)> = givers.cloned().collect();
+        let giver = givers.iter().find_map(|(stage, one)| self.mend_at(*stage, one));
+        // Where the next step makes of it what it should be, and fails, that step is to blame.
+        let is_same_end = |giver: &Mend| first.as_ref().is_some_and(|first| first.quantity == giver.quantity);
         let is_lack = first.as_ref().is_some_and(|first| self.missing_in(first).is_some());
         if let Some(giver) = giver.filter(|giver| !is_same_end(giver) && !is_lack) {
             return Some(self.beginning(&giver).unwrap_or(giver));
@@ -152,7 +152,7 @@ impl Search<'_, '_> {
         suspect.events.len() > 1 && first.is_some_and(|first| self.quantities.equal_to(stage, first).is_some())
     }
 
-    fn is_assignment(&self, stage: Stage, suspect: &Suspect) -> bool {
+    pub(super) fn is_assignment(&self, stage: Stage, suspect: &Suspect) -> bool {
         matches!(self.site(stage, suspect).what, What::Assign { .. })
     }
 
