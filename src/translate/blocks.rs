@@ -2,6 +2,7 @@
 //! a student's shader calls their members.
 
 use super::interface::{LinkedInterface, place, unset_uniform};
+use super::spirv::DeclaredUniform;
 use super::uniforms::{UniformBlock, UniformMember};
 use crate::diagnostic::{Diagnostic, DiagnosticStage};
 use crate::language::Text;
@@ -9,7 +10,7 @@ use crate::source::Source;
 use naga::{ScalarKind, TypeInner, VectorSize};
 use reference::Assignment;
 use reference::interpreter::{BlockPlace, Scalar, Type, std140};
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 
 /// A scalar, vector or matrix in such a block, as the program fills it.
 #[derive(Clone, Debug)]
@@ -157,6 +158,38 @@ pub(super) fn told(misplaced: &[Misplaced], source: &Source, interface: &LinkedI
         }
     }
     [errors, notes]
+}
+
+/// Says which blocks have another name than that by which a program finds them to fill them.
+pub(super) fn renamed(declared: &[DeclaredUniform], placed: &[PlacedUniform], source: &Source) -> Vec<Diagnostic> {
+    let block = |own: &DeclaredUniform| own.path.split('.').next().unwrap_or_default().to_owned();
+    let in_blocks = || declared.iter().filter(|own| own.is_in_block);
+    let mut found: BTreeMap<String, &str> = BTreeMap::new();
+    for own in in_blocks() {
+        let meant = placed.iter().find(|known| Some(known.path.as_str()) == own.own_name());
+        let is_there = |name: &str| in_blocks().any(|other| block(other) == name);
+        if let Some(name) = meant.map(|known| known.place.block.as_str()).filter(|name| !is_there(name)) {
+            found.insert(block(own), name);
+        }
+    }
+    let told = |(own, name): (String, &str)| {
+        let text = Text::new(
+            format!(
+                "the program finds the block `{name}` by its name, and `{own}` is another one: OpenGL leaves it empty"
+            ),
+            format!(
+                "プログラムはブロック `{name}` を名前で探します。`{own}` は別の名前なので、OpenGL では値が入りません"
+            ),
+        );
+        let diagnostic = place(Diagnostic::warning(DiagnosticStage::Interface, text), source, &own);
+        diagnostic.hint(Text::new(
+            format!("Call the block `{name}`, as in the handed-out file. The name of its instance is free."),
+            format!(
+                "ブロックの名前を、配布されたファイルと同じ `{name}` にしてください。インスタンスの名前は自由です。"
+            ),
+        ))
+    };
+    found.into_iter().map(told).collect()
 }
 
 fn elsewhere(misplaced: &Misplaced, source: &Source) -> Diagnostic {

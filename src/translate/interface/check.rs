@@ -16,7 +16,7 @@ impl DeclaredUniform {
     }
 
     /// What a member of a block without an instance name goes by; an array of blocks has one.
-    fn own_name(&self) -> Option<&str> {
+    pub(in crate::translate) fn own_name(&self) -> Option<&str> {
         let (block, member) = self.path.split_once('.')?;
         (self.is_in_block && !block.ends_with(']')).then_some(member)
     }
@@ -86,6 +86,7 @@ pub(in crate::translate) fn check(
     let [wrong, others] = blocks::told(&shader.misplaced, source, interface);
     errors.extend(wrong);
     notes.extend(others);
+    notes.extend(blocks::renamed(&shader.known.declared, &interface.placed, source));
     for unset in &shader.known.unset {
         match interface.uniforms.iter().find(|uniform| uniform.name == unset.name) {
             Some(expected) if unset.ty != "block" => errors.push(wrong_type(source, "uniform", expected, unset.ty)),
