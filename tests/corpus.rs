@@ -35,7 +35,7 @@ const SAMPLES: [(&str, usize); 31] = [
     ("gouraud-point-light", 179),
     ("interpolation", 63),
     ("lambert", 131),
-    ("lamp", 20),
+    ("lamp", 22),
     ("maps", 84),
     ("per-pixel", 11),
     ("phong", 190),

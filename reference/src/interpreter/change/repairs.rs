@@ -8,6 +8,7 @@ mod declared;
 mod expressions;
 mod ingredients;
 mod inlined;
+mod order;
 mod size;
 mod undone;
 
@@ -21,6 +22,7 @@ use copies::{copied, together};
 use declared::Declared;
 use expressions::of_expression;
 pub use ingredients::Ingredients;
+use order::Order;
 use size::{size, tokens};
 use std::cell::Cell;
 use std::collections::HashSet;
@@ -65,6 +67,8 @@ enum Where {
     Expressions(Vec<(usize, Path, Expression)>),
     /// The statement with this number goes.
     Statement(usize),
+    /// The statement with this number and the next one are exchanged.
+    Exchanged(usize, Box<[Statement; 2]>),
 }
 
 impl ProgramRepair {
@@ -90,7 +94,7 @@ impl ProgramRepair {
     fn places(&self) -> &[(usize, Path, Expression)] {
         match &self.place {
             Where::Expressions(places) => places,
-            Where::Statement(_) => &[],
+            Where::Statement(_) | Where::Exchanged(..) => &[],
         }
     }
 
@@ -98,6 +102,7 @@ impl ProgramRepair {
     fn size(&self) -> (usize, bool) {
         match self.place {
             Where::Expressions(_) => size(&self.texts),
+            Where::Exchanged(..) => (2, false),
             Where::Statement(_) => (tokens(&self.texts[0]).len(), false),
         }
     }
@@ -143,6 +148,7 @@ impl Repairable {
     pub fn repairs(&self, lines: &[u32], near: usize, right: &Ingredients) -> Vec<ProgramRepair> {
         let (mut found, mut statements) = (Vec::new(), Vec::new());
         let (mut expression, mut statement) = (0, 0);
+        let mut order = Order::default();
         let is_sought =
             |own: &Expression| paths(own).iter().any(|path| lines.contains(&ExpressionPlace::of(own, path).own.line));
         // The condition of the last branch that nothing else is done without, and the same for the branch whose condition comes next.
@@ -159,6 +165,7 @@ impl Repairable {
                         last = no.is_none().then(|| condition.clone());
                     }
                     statements.extend(without(own, statement));
+                    order.meet(own, statement);
                     statement += 1;
                 },
                 expression: &mut |own, met, names| {
@@ -176,12 +183,15 @@ impl Repairable {
         let rank = |line: u32| lines.iter().position(|own| *own == line);
         let mut all = together(found, &self.copied);
         all.extend(statements);
+        all.extend(order.found);
         let ranked = all.into_iter().filter_map(|repair| {
             let rank = rank(repair.line)?;
             let size = repair.size();
             // A function around a value is one slip, whatever else it is given.
             let is_call = !repair.is_slip && repair.mistake <= Operator::CallLeftOut;
             let key = match &repair {
+                // The order makes up for much that is wrong in one of the two.
+                ProgramRepair { place: Where::Exchanged(..), .. } => (5, size, rank),
                 // Where it was found to be wrong, what it is made for counts.
                 ProgramRepair { is_of_use: true, .. } => (if rank < near { 3 } else { 4 }, size, rank),
                 _ if repair.is_smallest(size) => (0, (0, false), rank),
@@ -231,6 +241,9 @@ impl Repairable {
                 statement: &mut |own, _| {
                     if matches!(repair.place, Where::Statement(at) if at == statement) {
                         own.kind = StatementKind::Empty;
+                    }
+                    if let Some(other) = order::exchanged(&repair.place, statement, is_marked) {
+                        *own = other;
                     }
                     statement += 1;
                 },

@@ -43,7 +43,8 @@ pub(super) fn of_expression(
             is_bound_by_zero: added.is_bound_by_zero,
             added: added.name,
             is_slip: false,
-            is_elsewhere: added.is_elsewhere,
+            // What a function of the text is called for may as well be wrong in the function.
+            is_elsewhere: added.is_elsewhere || has_own_call(place.own),
             is_of_use,
             ..add(added.mistake, added.expression)
         });

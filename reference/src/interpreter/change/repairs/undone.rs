@@ -3,7 +3,7 @@
 use super::super::calls::exchanged;
 use super::super::tree::{ExpressionPlace, operands};
 use super::super::types::{KnownTypes, guess};
-use super::super::{Operator, bare};
+use super::super::{Operator, bare, written};
 use crate::interpreter::syntax::{Binary, Expression, ExpressionKind, Name, Unary};
 use crate::interpreter::types::Type;
 
@@ -27,6 +27,11 @@ pub(super) fn changes(
         let other = |other| (Operator::Exchanged, Expression { kind: kind(other), ..own.clone() });
         all.map(other).collect::<Vec<_>>()
     };
+    if let ExpressionKind::Assign(operator, to, from) = &own.kind {
+        let assigned = |to| ExpressionKind::Assign(*operator, Box::new(to), from.clone());
+        let others = other_targets(to, known).into_iter();
+        found.extend(others.map(|to| (Operator::OtherValue, Expression { kind: assigned(to), ..own.clone() })));
+    }
     match &own.kind {
         ExpressionKind::Assign(None, to, from) => {
             for (mistake, operator) in
@@ -91,6 +96,27 @@ pub(super) fn changes(
         found.push((Operator::OtherOperator, Expression::made(own.line, kind)));
     }
     found
+}
+
+/// Other variables of its type that something is assigned to, or other elements of its array.
+fn other_targets(to: &Expression, known: KnownTypes<'_>) -> Vec<Expression> {
+    match &to.kind {
+        ExpressionKind::Name(_) => {
+            let (kind, text) = (guess(to, known), written(to));
+            let is_other = |(name, its): &&(Expression, Type)| {
+                Some(its) == kind.as_ref() && matches!(name.kind, ExpressionKind::Name(_)) && written(name) != text
+            };
+            known.names.iter().filter(is_other).map(|(name, _)| name.clone()).collect()
+        }
+        ExpressionKind::Index(of, at) => {
+            let ExpressionKind::Integer(own, unsigned) = at.kind else { return Vec::new() };
+            let others = [0.0, 1.0, 2.0, 3.0].into_iter().filter(|other| *other != own);
+            let index = |other| Expression { kind: ExpressionKind::Integer(other, unsigned), ..(**at).clone() };
+            let element = |other| ExpressionKind::Index(of.clone(), Box::new(index(other)));
+            others.map(|other| Expression { kind: element(other), ..to.clone() }).collect()
+        }
+        _ => Vec::new(),
+    }
 }
 
 /// The condition of a branch that holds only where that of the branch before it does not.
