@@ -105,9 +105,15 @@ impl<'a> TracedProbes<'a> {
         Some((Self { assignment, source, stage, sites, trace, trials, places, each }, seen.colours))
     }
 
-    /// The student's own names for the definitions, in the equation's order.
-    pub fn names(&self) -> Vec<Option<&'a str>> {
-        self.definitions(&self.assignment.equation.right()).iter().map(|right| self.name_of(right)).collect()
+    /// The student's own names for the definitions, in the equation's order: of what is right, or else of what it is with these mistakes.
+    pub fn names(&self, found: &[FoundMistake]) -> Vec<Option<&'a str>> {
+        let right = self.definitions(&self.assignment.equation.right());
+        let wrong = self.assignment.variant(found).map(|variant| self.definitions(&variant)).unwrap_or_default();
+        let name = |(at, right): (usize, &ScalarColumns)| {
+            self.name_of(right)
+                .or_else(|| wrong.get(at).filter(|wrong| *wrong != right).and_then(|own| self.name_of(own)))
+        };
+        right.iter().enumerate().map(name).collect()
     }
 
     /// The name of a variable that holds a definition at every point.

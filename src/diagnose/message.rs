@@ -161,6 +161,10 @@ impl Facts {
         let sought = if wrong.is_some() { &[] } else { found };
         let mut places: Vec<_> =
             sought.iter().enumerate().map(|(index, mistake)| (mistake.id.clone(), place(index))).collect();
+        // Where no value tells the place of the only one, the text may become right by one change.
+        if let ([(_, place @ None)], false, None) = (&mut places[..], has_definitions, &wrong) {
+            *place = inside::slip(evidence).1;
+        }
         let is_found = |id: &&String| mistakes.contains(id) && !places.iter().any(|(known, _)| known == *id);
         if let Some(id) = evidence.assignment.gradual.as_ref().map(|gradual| &gradual.abrupt).filter(is_found) {
             places.push((id.clone(), inside::decision(evidence)));
@@ -168,12 +172,12 @@ impl Facts {
         let findings = match cause {
             // Everything stands where it should not, and nothing else is wrong.
             Cause::Known { constants, found, .. } if constants.is_empty() && found.is_empty() => inside::find(evidence),
-            Cause::Right | Cause::Parts(_) | Cause::NearlyRight => inside::find(evidence),
+            Cause::Right | Cause::Parts(_) | Cause::NearlyRight(_) => inside::find(evidence),
             Cause::Known { .. } | Cause::HardCoded | Cause::NothingDrawn | Cause::Repaired(_) => Vec::new(),
             Cause::Unexplained { findings, .. } => findings.clone(),
         };
         let mut names = Self::handed_out(evidence);
-        let own = points.as_ref().map(TracedProbes::names).unwrap_or_default();
+        let own = points.as_ref().map(|points| points.names(found)).unwrap_or_default();
         let own = own.into_iter().chain(std::iter::repeat(None));
         for (definition, own) in evidence.assignment.equation.definitions().iter().zip(own) {
             let symbol = evidence.assignment.names.get(&definition.name).and_then(|name| name.symbol.clone());
