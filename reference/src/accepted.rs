@@ -3,7 +3,7 @@
 use crate::assignment::HandedIn;
 use crate::equation::Reads;
 use crate::frames::VertexStage;
-use crate::interpreter::{Column, Program, Stage};
+use crate::interpreter::{Column, Program, SlipMark, Stage};
 use crate::pipeline::{Pipeline, UniformsOf, columns, slices};
 use crate::probes::ProbeSet;
 use crate::rasteriser::Frame;
@@ -20,8 +20,10 @@ pub struct AcceptedAnswer {
     pub(crate) pipeline: Pipeline,
     /// What it has in place of texts of the solution, where that is all in which it differs.
     pub(crate) replaced: Vec<[String; 2]>,
-    /// The line of the rubric within whose feature alone it differs from the solution, where that is known.
-    pub(crate) within: Option<usize>,
+    /// The texts of the solution's files with that.
+    pub(crate) texts: Vec<String>,
+    /// The slip by which it differs from the solution, where it is one, and the stage whose text that is in.
+    pub(crate) slip: Option<Box<(Stage, SlipMark)>>,
     /// What is asked for, read in another way, where the answer is right by that.
     pub reading: Option<Arc<Reading>>,
 }
@@ -43,7 +45,7 @@ pub(crate) type Computed = (DVec3, DVec4);
 impl AcceptedAnswer {
     /// A program of which no more is known.
     pub(crate) fn new(name: &str, pipeline: Pipeline) -> Self {
-        Self { name: name.to_owned(), pipeline, replaced: Vec::new(), within: None, reading: None }
+        Self { name: name.to_owned(), pipeline, replaced: Vec::new(), texts: Vec::new(), slip: None, reading: None }
     }
 }
 

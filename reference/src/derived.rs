@@ -6,6 +6,7 @@
 mod alike;
 mod operator;
 mod programs;
+mod within;
 mod wording;
 
 use crate::assignment::RubricLine;
@@ -14,11 +15,12 @@ use crate::interpreter::{DefinitionSlip, Draft, FREE, Operator};
 use crate::mistake::{DefinitionOverride, FoundMistake, FreeParameter, Mistake, MistakeForm};
 use crate::probes::ProbeSet;
 use crate::{Assignment, Value};
-use std::collections::BTreeMap;
-use std::sync::{Arc, OnceLock};
+use std::collections::{BTreeMap, HashMap};
+use std::sync::{Arc, Mutex, OnceLock};
 
 pub(crate) use operator::{OperatorText, operator_of, operators};
 use programs::Screen;
+use within::Shown;
 
 /// What the id of a derived mistake begins with.
 pub const PREFIX: &str = "derived-";
@@ -43,6 +45,8 @@ pub struct Derived {
     /// What the programs show at some probes.
     screen: OnceLock<Screen>,
     judging: OnceLock<ProbeSet>,
+    /// The lines within whose features mistakes are that were asked for.
+    within: Mutex<HashMap<(String, usize, Shown), Vec<usize>>>,
 }
 
 impl Derived {
@@ -56,6 +60,7 @@ impl Derived {
             terms: 0,
             screen: OnceLock::new(),
             judging: OnceLock::new(),
+            within: Mutex::default(),
         };
         let programs = programs::mistakes(assignment);
         if assignment.equation.reads() == Reads::Outputs {
@@ -77,7 +82,8 @@ impl Derived {
     pub(crate) fn with_constants(&self, changed: &[(&str, Value)]) -> Option<Self> {
         let assignment = self.assignment.with_constants(changed).ok()?;
         let (places, first, terms) = (self.places.clone(), self.first, self.terms);
-        Some(Self { assignment, first, places, terms, screen: OnceLock::new(), judging: OnceLock::new() })
+        let (screen, judging, within) = Default::default();
+        Some(Self { assignment, first, places, terms, screen, judging, within })
     }
 
     /// The derived mistakes.
@@ -95,6 +101,11 @@ impl Derived {
     /// Whether what a line judges is another with the mistake in it, or is used in another way.
     pub(crate) fn touches(&self, found: &FoundMistake, line: &RubricLine) -> bool {
         let assignment = &self.assignment;
+        let shown = if assignment.judges_position(line) { Shown::Position } else { Shown::Colour };
+        let within = self.lines_of(found, shown);
+        if !within.is_empty() {
+            return within.iter().any(|own| assignment.rubric[*own].id == line.id);
+        }
         let form = assignment.mistake(&found.id).and_then(|mistake| mistake.forms.get(found.form));
         if form.is_none() {
             return self.program_touches(found, line);

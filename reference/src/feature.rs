@@ -1,17 +1,15 @@
 //! What a line of the rubric judges, known by the solution without it.
 
-mod within;
-
-pub(crate) use within::FeatureTexts;
-
 use crate::Assignment;
 use crate::accepted::{AcceptedAnswer, Computed};
 use crate::assignment::RubricLine;
 use crate::equation::Reads;
 use crate::interpreter::Stage;
+use crate::interpreter::outline::{self, Word};
 use crate::mistake::MistakeForm;
 use crate::probes::ProbeSet;
 use crate::traced::TracedProgram;
+use std::ops::Range;
 
 /// The solution without what a line judges.
 #[derive(Clone, Debug)]
@@ -39,6 +37,34 @@ impl Assignment {
             Some(Some(Feature::Program(program))) => program.replaced.len() == 1,
             _ => true,
         }
+    }
+
+    /// Whether it is known what the solution lacks without what a line judges.
+    pub fn has_feature(&self, line: usize) -> bool {
+        self.features.get(line).is_some_and(Option::is_some)
+    }
+
+    /// Whether a line judges how often a loop goes round, by what stands in its head.
+    pub fn judges_turns(&self, line: usize) -> bool {
+        self.loop_words(line).next().is_some()
+    }
+
+    /// The words in the head of a loop that are others without what a line judges.
+    pub(crate) fn loop_words(&self, line: usize) -> impl Iterator<Item = String> {
+        let replaced = match self.features.get(line) {
+            Some(Some(Feature::Program(program))) => program.replaced.as_slice(),
+            _ => &[],
+        };
+        let texts = self.files.iter().map(|file| file.solution.text.as_str());
+        let words_of = |text: &str| -> Vec<String> {
+            let ranges = replaced.iter().filter_map(|[own, _]| Some((text.find(own.as_str())?, own.len())));
+            let ranges: Vec<Range<usize>> = ranges.map(|(start, length)| start..start + length).collect();
+            let is_replaced = |word: &&Word| ranges.iter().any(|range| range.contains(&word.range.start));
+            let statements = outline::functions(text).into_iter().flat_map(|function| function.statements);
+            let heads = statements.flat_map(|statement| outline::loop_heads(&statement.under));
+            heads.filter(|word| is_replaced(&word)).map(|word| word.text).collect()
+        };
+        texts.filter(|_| !replaced.is_empty()).flat_map(words_of).collect::<Vec<_>>().into_iter()
     }
 
     /// Whether a line judges what is left of the solution without the features of the others.

@@ -58,8 +58,8 @@ mod tests;
 
 pub use builtin::lookup::{is_lookup, lookup_of_today};
 pub use change::{
-    ChangedPart, FREE, Ingredients, Operator, ProgramRepair, ProgramSlip, Repairable, program_slips,
-    program_without_parts,
+    ChangedPart, FREE, Ingredients, Operator, ProgramRepair, ProgramSlip, Repairable, SlipMark, program_slips,
+    program_without_parts, slips_marked, slips_of_variables, slips_written,
 };
 pub use code::{BlockPlace, Interpolation, ProgramVariable};
 pub use compile::{DefinitionSlip, Draft};

@@ -50,13 +50,22 @@ impl Assignment {
     /// Whether one line of the rubric alone is about a variable of the solution, which is given one value, so that the line is about all
     /// that it is. What is given several values one after the other may have those of other lines.
     pub fn is_of_one_line(&self, variable: &str) -> bool {
+        self.lines_about(variable).count() == 1 && self.times_given(variable) == 1
+    }
+
+    /// The lines that a mistake in a variable costs, where nothing else tells. Of one that is given several values, the only line that is
+    /// about it may be about one of them.
+    pub fn lines_owning(&self, variable: &str) -> Vec<&RubricLine> {
+        let about: Vec<&RubricLine> = self.lines_about(variable).collect();
+        if about.len() == 1 && self.times_given(variable) > 1 { Vec::new() } else { about }
+    }
+
+    /// How often the solution gives a variable a value.
+    fn times_given(&self, variable: &str) -> usize {
         let gives = |site: &&Site| matches!(&site.what, What::Assign { name, .. } if name == variable);
-        let given = |program: &TracedProgram| -> usize {
-            let stages = [Stage::Vertex, Stage::Fragment].into_iter();
-            stages.map(|stage| program.stage(stage).sites().iter().filter(gives).count()).sum()
-        };
-        self.lines_about(variable).count() == 1
-            && TracedProgram::solution(self).is_ok_and(|solution| given(&solution) == 1)
+        let Ok(solution) = TracedProgram::solution(self) else { return 0 };
+        let stages = [Stage::Vertex, Stage::Fragment].into_iter();
+        stages.map(|stage| solution.stage(stage).sites().iter().filter(gives).count()).sum()
     }
 
     /// Whether a variable of a solution that is no list of definitions is called anything, by itself or by a line that is about it.

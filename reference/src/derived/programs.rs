@@ -5,15 +5,14 @@ use crate::Assignment;
 use crate::accepted::{AcceptedAnswer, Computed};
 use crate::assignment::RubricLine;
 use crate::equation::Reads;
-use crate::feature::FeatureTexts;
 use crate::fit::{Alternatives, Footprints, TOLERANCE, channel_agrees};
-use crate::interpreter::{DISCARD, Operator, ProgramSlip, outline, program_slips};
+use crate::interpreter::{DISCARD, Operator, ProgramSlip, outline, program_slips, slips_of_variables};
 use crate::mistake::{Condition, FoundMistake, Mistake};
 use crate::probes::ProbeSet;
 use std::collections::BTreeMap;
 
 /// Probes under so many cameras tell most programs apart.
-const FIRST: usize = 3;
+pub(super) const FIRST: usize = 3;
 
 /// What every program shows at the first probes of a set.
 #[derive(Debug)]
@@ -31,11 +30,14 @@ pub(super) fn mistakes(assignment: &Assignment) -> Vec<Mistake> {
         let is_part = |name: &str| assignment.equation.reads() == Reads::Outputs || name != "main";
         let own = outline::functions(&file.solution.text);
         let returns = |name: &str| own.iter().any(|function| function.name.text == name);
-        let slips = program_slips(&file.solution.text, file.stage, &is_part).unwrap_or_default();
-        let features = FeatureTexts::of(assignment, file);
+        let mut slips = program_slips(&file.solution.text, file.stage, &is_part).unwrap_or_default();
+        if assignment.equation.reads() != Reads::Outputs {
+            let only_moves = |name: &str| only_moves(assignment, name);
+            slips.extend(slips_of_variables(&file.solution.text, file.stage, &only_moves).unwrap_or_default());
+        }
         for slip in slips {
             let Some(mut answer) = assignment.linked_with(file, slip.program.clone(), &slip.text) else { continue };
-            answer.within = slip.part.bytes.as_ref().and_then(|bytes| features.line(bytes));
+            answer.slip = Some(Box::new((file.stage, slip.mark())));
             // What a function returns, and what decides what is thrown away, has a name where it is known what it is for.
             let is_variable = |name: &str| !returns(name) && name != DISCARD;
             let is_told = |name: &&String| is_variable(name) || assignment.is_told_apart(name);
@@ -48,6 +50,13 @@ pub(super) fn mistakes(assignment: &Assignment) -> Vec<Mistake> {
         Mistake { variants: answers, ..wording::of_program(assignment, operator, &name, &slips) }
     };
     grouped.into_iter().map(mistake).collect()
+}
+
+/// Whether a variable of the solution only says where something stands, on the way to the position.
+fn only_moves(assignment: &Assignment, name: &str) -> bool {
+    let equation = &assignment.equation;
+    let (Some(own), Some(position)) = (equation.index(name), equation.position) else { return false };
+    own != position && equation.depends(position, own) && !equation.depends(equation.colour, own)
 }
 
 /// Adds mistakes to others, into those of the same name.
@@ -105,13 +114,7 @@ impl Derived {
     /// itself, and is right there.
     pub(super) fn program_touches(&self, found: &FoundMistake, line: &RubricLine) -> bool {
         let judges_position = self.assignment.judges_position(line);
-        let program = self.assignment.mistake(&found.id).and_then(|mistake| mistake.program(found.form));
-        let is_of_one_line = || definition(&found.id).is_some_and(|name| self.assignment.is_of_one_line(name));
-        let within = program.and_then(|program| program.within).filter(|_| !judges_position && !is_of_one_line());
-        if let Some(within) = within {
-            return self.assignment.rubric[within].id == line.id;
-        }
-        let probes = self.judging.get_or_init(|| self.assignment.judging_probes());
+        let probes = self.judging();
         let Some(shown) = self.shown(found, probes) else { return true };
         let pairs = || probes.iter().zip(&shown);
         if judges_position {
@@ -143,9 +146,14 @@ impl Derived {
         colours.any(|(number, own)| own.id == line.id && (!is_any || is_touched(number)))
     }
 
+    /// Probes that judge.
+    pub(super) fn judging(&self) -> &ProbeSet {
+        self.judging.get_or_init(|| self.assignment.judging_probes())
+    }
+
     /// The lines of the colour that are about what a mistake is in.
     pub(super) fn lines_about(&self, found: &FoundMistake) -> Vec<&str> {
-        let about = definition(&found.id).into_iter().flat_map(|name| self.assignment.lines_about(name));
+        let about = definition(&found.id).into_iter().flat_map(|name| self.assignment.lines_owning(name));
         about.filter(|line| !self.assignment.judges_position(line)).map(|line| line.id.as_str()).collect()
     }
 }

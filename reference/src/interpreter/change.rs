@@ -13,7 +13,10 @@ mod types;
 mod wrappers;
 mod write;
 
-pub use programs::{ChangedPart, ProgramSlip, program_slips, program_without_parts};
+pub use programs::{
+    ChangedPart, ProgramSlip, SlipMark, program_slips, program_without_parts, slips_marked, slips_of_variables,
+    slips_written,
+};
 pub use repairs::{Ingredients, ProgramRepair, Repairable};
 pub use write::written;
 

@@ -50,6 +50,20 @@ impl StatementText {
     }
 }
 
+/// Those of the words of what decides that a statement is done which stand in the heads of loops.
+pub fn loop_heads(under: &[Word]) -> Vec<Word> {
+    let mut is_loop = false;
+    let is_in_head = |word: &&Word| {
+        match word.text.as_str() {
+            "for" | "while" => is_loop = true,
+            "if" | "switch" => is_loop = false,
+            _ => {}
+        }
+        is_loop
+    };
+    under.iter().filter(is_in_head).cloned().collect()
+}
+
 /// A function with its body.
 #[derive(Clone, Debug)]
 pub struct FunctionText {

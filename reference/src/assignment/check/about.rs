@@ -9,7 +9,7 @@ use crate::Assignment;
 use crate::assignment::HandedIn;
 use crate::feature::Feature;
 use crate::interpreter::DISCARD;
-use crate::interpreter::outline::{Word, words};
+use crate::interpreter::outline::{Word, loop_heads, words};
 use flow::{Flow, Node, OwnFunction, given, names};
 use std::collections::BTreeSet;
 
@@ -22,6 +22,8 @@ struct Belongs {
     given: BTreeSet<Node>,
     /// Those that are given other values as well, or of whose value that is a part.
     parts: BTreeSet<Node>,
+    /// What is read all the same where it is used.
+    left: BTreeSet<Node>,
     /// Whether it is what throws fragments away.
     throws_away: bool,
 }
@@ -45,7 +47,12 @@ pub(super) fn complete(assignment: &mut Assignment) {
     let Some(belongs) = belongs.collect::<Option<Vec<Belongs>>>() else { return };
     let has_rest = lines.iter().any(|at| assignment.features[*at].is_none());
     let colour = assignment.equation.definitions[assignment.equation.colour].name.clone();
-    let within = belongs.iter().map(|own| flow.made_of(&own.gone, &|_, _| false)).collect();
+    let within = |own: &Belongs| {
+        let left = own.left.difference(&own.given).cloned().collect();
+        let left = flow.made_of(&left, &|_, _| false);
+        flow.made_of(&own.gone, &|_, _| false).into_iter().filter(|node| !left.contains(node)).collect()
+    };
+    let within = belongs.iter().map(within).collect();
     let lines_of = Lines { rest: rest(&flow, &belongs, &colour), flow, belongs, within, has_rest };
     let said = lines.iter().flat_map(|at| assignment.rubric[*at].variables.iter().cloned());
     let said: BTreeSet<String> = said.collect();
@@ -95,6 +102,7 @@ fn belongs(flow: &Flow<'_>, replaced: &[[String; 2]]) -> Option<Belongs> {
         let left = words(instead);
         let left: BTreeSet<&str> = names(&left).collect();
         belongs.gone.extend(names(&gone).filter(|name| !left.contains(name)).map(|name| flow.seen_in(function, name)));
+        belongs.left.extend(left.iter().map(|name| flow.seen_in(function, name)));
     }
     let is_own = |node: &Node| flow.is_computed(node) && !belongs.given.contains(node);
     belongs.gone.retain(is_own);
@@ -103,15 +111,8 @@ fn belongs(flow: &Flow<'_>, replaced: &[[String; 2]]) -> Option<Belongs> {
 
 /// The words that decide whether a statement is done at all. How often a loop goes round decides of no one value in it.
 fn deciding(under: &[Word]) -> impl Iterator<Item = &Word> {
-    let mut is_loop = false;
-    under.iter().filter(move |word| {
-        match word.text.as_str() {
-            "for" | "while" => is_loop = true,
-            "if" | "switch" => is_loop = false,
-            _ => {}
-        }
-        !is_loop
-    })
+    let heads: BTreeSet<usize> = loop_heads(under).iter().map(|word| word.range.start).collect();
+    under.iter().filter(move |word| !heads.contains(&word.range.start))
 }
 
 /// What the colour is made of without all features.
@@ -124,7 +125,7 @@ fn rest(flow: &Flow<'_>, all: &[Belongs], colour: &str) -> BTreeSet<Node> {
 struct Lines<'t> {
     flow: Flow<'t>,
     belongs: Vec<Belongs>,
-    /// For each line what is gone without its feature, and what that is made of.
+    /// For each line what is gone without its feature, and what that is made of, but for what is read all the same.
     within: Vec<BTreeSet<Node>>,
     /// What the colour is made of without all features.
     rest: BTreeSet<Node>,

@@ -57,10 +57,11 @@ impl Variants<'_> {
             let to = number.map_or_else(|| to.clone(), |(name, value)| with_number(to, name, value));
             texts[*at] = texts[*at].replacen(from.as_str(), &to, 1);
         }
-        let changed = texts.into_iter().zip(self.files).map(|(text, file)| (file, with_macros(&text, define)));
+        let texts: Vec<String> = texts.iter().map(|text| with_macros(text, define)).collect();
+        let changed = self.files.iter().zip(texts.iter().cloned());
         let changed: Vec<_> = changed.filter(|(file, text)| *text != file.solution.text).collect();
         let replaced = if define.is_empty() && file.is_none() { replace.clone() } else { Vec::new() };
-        Ok(AcceptedAnswer { replaced, ..self.stages.changed(&changed, place)? })
+        Ok(AcceptedAnswer { replaced, texts, ..self.stages.changed(&changed, place)? })
     }
 
     /// The files that a variant may change.

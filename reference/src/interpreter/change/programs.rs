@@ -1,12 +1,15 @@
 //! The slips of a program that is no list of definitions: each as a program of its own.
 
+mod chosen;
+
+pub use chosen::{program_slips, program_without_parts, slips_marked, slips_of_variables, slips_written};
+
 use super::tree::{self, MetAs, TreeWalk, TypedNames, walk};
 use super::types::{DeclaredTypes, KnownTypes, guess, typed};
 use super::{Change, NameScope, Operator, changes, written};
 use crate::interpreter::syntax::{Expression, ExpressionKind, Item, Name, Statement, StatementKind};
 use crate::interpreter::{Program, Refusal, Stage, compile, parse, text};
 use std::collections::HashSet;
-use std::ops::Range;
 
 /// A program with a slip in it.
 pub struct ProgramSlip {
@@ -33,8 +36,25 @@ pub struct ChangedPart {
     pub own: String,
     /// What would stand there; nothing of what is left out altogether.
     pub instead: Option<String>,
-    /// Its bytes in the source, up to where its last word begins; none where they are not known.
-    pub bytes: Option<Range<usize>>,
+}
+
+/// What tells a slip from others, also in a program that is another one elsewhere.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SlipMark {
+    /// Of which kind it is.
+    pub operator: Operator,
+    /// The variable that is given a value there, or the function that returns one.
+    pub name: Option<String>,
+    /// What stands there, and what would stand there.
+    pub texts: (String, Option<String>),
+}
+
+impl ProgramSlip {
+    /// What tells it from others.
+    pub fn mark(&self) -> SlipMark {
+        let Self { operator, name, part, .. } = self;
+        SlipMark { operator: *operator, name: name.clone(), texts: (part.own.clone(), part.instead.clone()) }
+    }
 }
 
 /// Most slips of a program.
@@ -45,7 +65,7 @@ enum PlacedSlip {
     /// The expression with this number, in the order of a walk.
     Expression(usize, Option<Name>, Change, ChangedPart),
     /// What the loop with this number goes on by.
-    Bound(usize, Change),
+    Bound(usize, Change, ChangedPart),
     /// The statement with this number is left out.
     Statement(usize, Option<Name>, ChangedPart),
     /// In the `switch` that is the statement with this number, the one with that number in it, a `break`, is left out.
@@ -57,27 +77,27 @@ enum PlacedSlip {
 impl PlacedSlip {
     fn operator(&self) -> Operator {
         match self {
-            Self::Expression(_, _, change, _) | Self::Bound(_, change) => change.operator,
+            Self::Expression(_, _, change, _) | Self::Bound(_, change, _) => change.operator,
             Self::Statement(..) | Self::Branch(..) => Operator::StatementLeftOut,
             Self::FallsThrough(..) => Operator::FallsThrough,
         }
     }
-}
 
-/// The slips of a program in those of its functions that `is_part` names, as far as they are programs. The plainer ones come first.
-///
-/// # Errors
-/// The program is none.
-pub fn program_slips(source: &str, stage: Stage, is_part: &dyn Fn(&str) -> bool) -> Result<Vec<ProgramSlip>, Refusal> {
-    slips_of(source, stage, is_part, &|slip| !matches!(slip, PlacedSlip::Branch(..)))
-}
+    /// The name that is given the value, what is changed, and the part of the source.
+    fn parts(&self) -> (Option<&Name>, Option<&Change>, &ChangedPart) {
+        match self {
+            Self::Expression(_, name, change, part) => (name.as_ref(), Some(change), part),
+            Self::Bound(_, change, part) => (None, Some(change), part),
+            Self::Statement(_, name, part) => (name.as_ref(), None, part),
+            Self::FallsThrough(_, _, part) | Self::Branch(_, _, part) => (None, None, part),
+        }
+    }
 
-/// The program without each of its parts: a statement, a branch, an operand, a function around a value.
-///
-/// # Errors
-/// The program is none.
-pub fn program_without_parts(source: &str, stage: Stage) -> Result<Vec<ProgramSlip>, Refusal> {
-    slips_of(source, stage, &|_| true, &|slip| slip.operator() <= Operator::FallsThrough)
+    fn mark(&self) -> SlipMark {
+        let (name, _, part) = self.parts();
+        let texts = (part.own.clone(), part.instead.clone());
+        SlipMark { operator: self.operator(), name: name.map(|name| name.to_string()), texts }
+    }
 }
 
 fn slips_of(
@@ -95,18 +115,13 @@ fn slips_of(
     let compiled = |slip: &PlacedSlip| {
         let code = compile::compile(&with(&items, slip, is_part), preprocessed.version, stage).ok()?;
         let program = Program::of(code);
-        let (name, change, part) = match slip {
-            PlacedSlip::Expression(_, name, change, part) => (name.as_ref(), Some(change), Some(part)),
-            PlacedSlip::Bound(_, change) => (None, Some(change), None),
-            PlacedSlip::Statement(_, name, part) => (name.as_ref(), None, Some(part)),
-            PlacedSlip::FallsThrough(_, _, part) | PlacedSlip::Branch(_, _, part) => (None, None, Some(part)),
-        };
+        let (name, change, part) = slip.parts();
         Some(ProgramSlip {
             operator: slip.operator(),
             name: name.map(|name| name.to_string()),
             is_bound_by_zero: change.is_some_and(|change| change.is_bound_by_zero),
             text: change.map(|change| written(&change.expression)).unwrap_or_default(),
-            part: part.cloned().unwrap_or_default(),
+            part: part.clone(),
             program,
         })
     };
@@ -140,7 +155,6 @@ fn found(items: &[Item], is_part: &dyn Fn(&str) -> bool) -> Vec<PlacedSlip> {
                         lines: (condition.line, condition.line),
                         own: written(condition),
                         instead: Some(holds.to_string()),
-                        bytes: bytes_of(condition),
                     };
                     // Without another branch the statement may be left out, see above.
                     let ways = if no.is_some() { &[true, false][..] } else { &[true] };
@@ -150,19 +164,24 @@ fn found(items: &[Item], is_part: &dyn Fn(&str) -> bool) -> Vec<PlacedSlip> {
             },
             expression: &mut |own, met, names| {
                 let changes = changes_of(own, names).into_iter();
+                let part = |change: &Change| {
+                    let [before, after] =
+                        [&*own, &change.expression].map(|root| tree::ExpressionPlace::of(root, &change.path).own);
+                    let lines = (before.line, before.line);
+                    ChangedPart { lines, own: written(before), instead: Some(written(after)) }
+                };
                 let MetAs::Value(name) = met else {
                     // Any other slip may be a loop without an end.
                     let changes = changes.filter(|change| change.operator == Operator::OtherNumber);
-                    bounds.extend(changes.map(|change| PlacedSlip::Bound(bound, change)));
+                    bounds.extend(changes.map(|change| {
+                        let part = part(&change);
+                        PlacedSlip::Bound(bound, change, part)
+                    }));
                     bound += 1;
                     return;
                 };
                 slips.extend(changes.map(|change| {
-                    let [before, after] =
-                        [&*own, &change.expression].map(|root| tree::ExpressionPlace::of(root, &change.path).own);
-                    let lines = (before.line, before.line);
-                    let bytes = bytes_of(before);
-                    let part = ChangedPart { lines, own: written(before), instead: Some(written(after)), bytes };
+                    let part = part(&change);
                     PlacedSlip::Expression(expression, name.cloned(), change, part)
                 }));
                 expression += 1;
@@ -190,18 +209,7 @@ fn part_of(statement: &Statement) -> ChangedPart {
         StatementKind::Break => "break;".to_owned(),
         _ => "discard;".to_owned(),
     };
-    let bytes = match &statement.kind {
-        StatementKind::Expression(expression) | StatementKind::If(expression, ..) => bytes_of(expression),
-        _ => None,
-    };
-    ChangedPart { lines: (statement.line, tree::last_line(statement)), own, instead: None, bytes }
-}
-
-/// Where the words of an expression begin.
-fn bytes_of(own: &Expression) -> Option<Range<usize>> {
-    let starts = tree::paths(own).into_iter().map(|path| tree::ExpressionPlace::of(own, &path).own.at as usize);
-    let starts: Vec<usize> = starts.filter(|at| *at > 0).collect();
-    Some(*starts.iter().min()?..starts.iter().max()? + 1)
+    ChangedPart { lines: (statement.line, tree::last_line(statement)), own, instead: None }
 }
 
 /// Whether a statement may be left out, and the variable that then has no other value.
@@ -252,7 +260,7 @@ fn with(items: &[Item], slip: &PlacedSlip, is_part: &dyn Fn(&str) -> bool) -> Ve
                 };
                 match (slip, met) {
                     (PlacedSlip::Expression(at, _, change, _), MetAs::Value(_))
-                    | (PlacedSlip::Bound(at, change), MetAs::Bound)
+                    | (PlacedSlip::Bound(at, change, _), MetAs::Bound)
                         if at == number =>
                     {
                         *own = change.expression.clone();
