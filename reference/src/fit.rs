@@ -13,6 +13,7 @@ mod features;
 mod parts;
 mod programs;
 mod search;
+mod slips;
 mod solve;
 mod taste;
 mod terms;
@@ -24,6 +25,7 @@ pub use factor::judge_factor;
 pub use features::{FEWEST, Footprints, JudgedLine, ProbeChannel, alike, judge_features, programs_showing};
 pub use parts::{FeatureDefect, FeatureExplanation, explain_parts};
 pub use programs::programs_of;
+pub use slips::explain_moved;
 pub use terms::{TermJudgement, Worst};
 
 use crate::Assignment;

@@ -55,8 +55,8 @@ pub(super) enum Cause {
     HardCoded,
     /// Every fragment is thrown away, and the homework does not say why.
     NothingDrawn,
-    /// Nothing known explains it, but it is never off by much.
-    NearlyRight,
+    /// Nothing known explains it, but it is never off by much; the ids of lines that have nothing to do with it.
+    NearlyRight(Vec<String>),
     /// Nothing known explains it, and these changes of the text make it right; the ids of the lines that each one costs points.
     Repaired(Vec<(Vec<String>, Repaired)>),
     /// Nothing known explains it.
@@ -90,7 +90,7 @@ impl Cause {
         match self {
             _ if !self.is_refuted(evidence) => self,
             _ if let Some(listed) = Listed::of(evidence) => Self::unexplained(listed.terms(evidence), Vec::new()),
-            Self::Known { .. } | Self::NearlyRight if addends::is_computed(evidence) => {
+            Self::Known { .. } | Self::NearlyRight(_) if addends::is_computed(evidence) => {
                 let samples: Vec<[f64; 3]> = evidence.samples.iter().map(Sample::colour_f64).collect();
                 let Evidence { assignment, probes, .. } = *evidence;
                 let terms = judge_terms(assignment, probes, &samples, COLOUR_TOLERANCE);
@@ -115,7 +115,7 @@ impl Cause {
                 Fresh { probes: &probes, ..fresh }.refutes(&assignment, found, COLOUR_TOLERANCE)
             }),
             Self::Right => fresh.refutes(assignment, &[], COLOUR_TOLERANCE),
-            Self::NearlyRight => fresh.refutes(assignment, &[], NEARLY),
+            Self::NearlyRight(_) => fresh.refutes(assignment, &[], NEARLY),
             Self::HardCoded | Self::NothingDrawn | Self::Parts(_) | Self::Repaired(_) | Self::Unexplained { .. } => {
                 false
             }
@@ -213,7 +213,7 @@ impl Cause {
             Self::HardCoded
             | Self::NothingDrawn
             | Self::Parts(_)
-            | Self::NearlyRight
+            | Self::NearlyRight(_)
             | Self::Repaired(_)
             | Self::Unexplained { .. } => None,
         }
@@ -248,7 +248,7 @@ impl Cause {
             }
             Self::HardCoded => vec![HARD_CODED.into()],
             Self::NothingDrawn => vec![NOTHING_DRAWN.into()],
-            Self::NearlyRight => vec![NEARLY_RIGHT.into()],
+            Self::NearlyRight(_) => vec![NEARLY_RIGHT.into()],
             Self::Repaired(_) => {
                 let mut ids: Vec<String> = self.repairs().map(|repaired| repaired.mistake.id.clone()).collect();
                 ids.dedup();

@@ -3,6 +3,7 @@
 use super::candidates::{Candidate, fits};
 use super::columns::Resolved;
 use super::search::MistakeSearch;
+use super::slips::program;
 use super::{agrees, alternating, padded};
 use crate::Assignment;
 use crate::accepted::Computed;
@@ -55,22 +56,11 @@ pub fn explain_derived(
         agrees(*colour, samples[place], tolerance) && is_there(place, *position)
     };
     match count {
-        1 => pairs.alone().filter(moves).or_else(|| program(derived, probes, &shows).map(|found| vec![found])),
+        1 => {
+            pairs.alone().filter(moves).or_else(|| program(derived, probes, &shows, &|_| true).map(|found| vec![found]))
+        }
         _ => pairs.together().filter(moves),
     }
-}
-
-/// So many programs are run at all probes, where the first ones do not tell them apart.
-const MOST_PROGRAMS: usize = 40;
-
-/// The first program that shows at every probe what is shown there.
-fn program(derived: &Derived, probes: &ProbeSet, shows: &dyn Fn(usize, &Computed) -> bool) -> Option<FoundMistake> {
-    let likely = derived.likely(probes, shows).into_iter().take(MOST_PROGRAMS);
-    let is_it = |found: &FoundMistake| {
-        let shown = derived.shown(found, probes);
-        shown.is_some_and(|shown| shown.iter().enumerate().all(|(place, own)| shows(place, own)))
-    };
-    likely.into_iter().find(is_it)
 }
 
 /// Whether the positions are those that a right answer with these mistakes has, as far as the mistakes change them.

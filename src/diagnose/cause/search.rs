@@ -6,13 +6,15 @@ use crate::compare::{COLOUR_TOLERANCE, POSITION_TOLERANCE, position_difference};
 use crate::diagnose::constants::{self, ChangedConstant};
 use crate::diagnose::inside::{self, Repaired};
 use crate::diagnose::listed::Listed;
-use crate::diagnose::{Evidence, addends, hard_coded, plain, position_scale};
+use crate::diagnose::{Evidence, POSITION_CHANGED, addends, hard_coded, plain, position_scale};
 use crate::render::Sample;
 use crate::report::FrameResult;
 use glam::{DVec3, DVec4};
 use reference::Assignment;
 use reference::equation::{DISCARDED, Reads};
-use reference::fit::{Alternatives, Fit, MOST_MISTAKES, is_right, judge_features, judge_terms, programs_showing};
+use reference::fit::{
+    Alternatives, Fit, MOST_MISTAKES, explain_moved, is_right, judge_features, judge_terms, programs_showing,
+};
 use reference::mistake::FoundMistake;
 
 /// So many mistakes are looked for at once before the text is looked into.
@@ -41,6 +43,12 @@ pub(in crate::diagnose) fn cause(evidence: &Evidence<'_>, shape: bool) -> Cause 
     {
         let by_text = told_by_text(evidence, &alternatives, &samples, &found, shown);
         return by_text.unwrap_or_else(|| Cause::known(vec![found]));
+    }
+    if all_right
+        && !shape
+        && let Some(cause) = moved(evidence, &samples, &is_there)
+    {
+        return cause;
     }
     if all_right {
         // Right at every probe and in place, but not in the frames: the course's own poses are treated apart.
@@ -110,13 +118,45 @@ pub(in crate::diagnose) fn cause(evidence: &Evidence<'_>, shape: bool) -> Cause 
         // The course's own poses are treated apart from what explains all others.
         Fit::Explained(found) if frames_agree && hard_coded::leaves_nothing(assignment, &found) => Cause::HardCoded,
         // Some mistakes together come near to nearly anything.
-        Fit::Explained(found) if found.len() > 1 && is_nearly_right() => Cause::NearlyRight,
+        Fit::Explained(found) if found.len() > 1 && is_nearly_right() => nearly_right(evidence),
         Fit::Explained(found) if is_dark(evidence.samples) && stands_elsewhere(evidence, &found) => by_term(begun),
         Fit::Explained(found) => Cause::known(found),
         Fit::Unexplained(_) if is_hard_coded() => Cause::HardCoded,
-        Fit::Unexplained(_) if is_nearly_right() => Cause::NearlyRight,
+        Fit::Unexplained(_) if is_nearly_right() => nearly_right(evidence),
         Fit::Unexplained(terms) => unexplained(evidence, &alternatives, &samples, terms, begun),
     }
+}
+
+/// That it is never off by much, and the lines that have nothing to do with where it is.
+fn nearly_right(evidence: &Evidence<'_>) -> Cause {
+    let spared = spared::elsewhere(evidence.assignment, &inside::find(evidence));
+    Cause::NearlyRight(spared.unwrap_or_default())
+}
+
+/// The one mistake by which something stands elsewhere, where all colours are right: a derived one, or what one change of the text mends.
+fn moved(evidence: &Evidence<'_>, samples: &[[f64; 3]], is_there: &dyn Fn(usize, DVec4) -> bool) -> Option<Cause> {
+    let assignment = evidence.assignment;
+    let mut of_position = (0..assignment.rubric.len()).filter(|at| assignment.judges_position(&assignment.rubric[*at]));
+    // A line that judges all of the place has its own words.
+    if of_position.clone().any(|line| !assignment.has_feature(line)) {
+        return None;
+    }
+    let judges_position = of_position.next().is_some();
+    if let Some(found) = explain_moved(assignment, evidence.probes, samples, is_there, COLOUR_TOLERANCE) {
+        // Where a line judges where something stands, nothing of the colour is wrong.
+        let of_colour = assignment.rubric.iter().filter(|line| judges_position && !assignment.judges_position(line));
+        let spared = of_colour.map(|line| line.id.clone()).collect();
+        return Some(Cause::Known { constants: Vec::new(), found: vec![found], spared });
+    }
+    let moves = |id: &str| assignment.mistake(POSITION_CHANGED).is_some_and(|mistake| mistake.keeps(id) < 1.0);
+    if judges_position || !assignment.is_told_by_features() {
+        return None;
+    }
+    let (_, repairs) = inside::account(evidence, &mut || false);
+    let [repaired] = <[Repaired; 1]>::try_from(repairs).ok()?;
+    let mut lines = worth::charged(assignment, &[], &repaired);
+    lines.retain(|id| moves(id));
+    (!lines.is_empty()).then(|| Cause::Repaired(vec![(lines, repaired)]))
 }
 
 /// Whether a mistake costs more than half of all points: then whatever makes little of a right answer show may show the same.

@@ -1,6 +1,6 @@
 //! What a cause leaves of each line's points.
 
-use super::{Cause, PART_ABSENT, PART_MISSING, PART_SCALED, UNEXPLAINED};
+use super::{Cause, NEARLY_RIGHT, PART_ABSENT, PART_MISSING, PART_SCALED, UNEXPLAINED};
 use crate::diagnose::inside::Repaired;
 use crate::diagnose::{CONSTANTS_CHANGED, POSITION_CHANGED};
 use reference::Assignment;
@@ -39,6 +39,7 @@ pub fn kept(assignment: &Assignment, line: &RubricLine, shape: bool, cause: &Cau
             constants.iter().any(|changed| belongs(assignment, &changed.name, line))
         }
         (Cause::Known { spared, .. }, id) if is_derived(id) && spared.contains(&line.id) => false,
+        (Cause::NearlyRight(spared), NEARLY_RIGHT) if spared.contains(&line.id) => false,
         (Cause::Known { found, .. } | Cause::Parts(FeatureExplanation { found, .. }), _)
             if let Some(found) = found.iter().find(|found| found.id == id) =>
         {
@@ -70,6 +71,12 @@ fn of_colour(assignment: &Assignment, terms: &[TermJudgement], repaired: &Repair
     // What cannot be judged by itself is not known to be right.
     let is_right = |line: &&RubricLine| terms.iter().any(|term| term.line == line.id && term.is_right());
     let is_colour = |line: &&RubricLine| !assignment.judges_position(line);
+    // Which element of an array is taken is a matter of the turns of the loop that goes through it.
+    if repaired.is_of_an_element()
+        && let Some(turns) = (0..assignment.rubric.len()).find(|line| assignment.judges_turns(*line))
+    {
+        return vec![assignment.rubric[turns].id.clone()];
+    }
     // What a fixed stage reads has its name, whatever stands for it in a right answer.
     let is_read = |name: &&str| {
         assignment.fixed.iter().any(|fixed| fixed.stage == Stage::Fragment)
@@ -83,7 +90,7 @@ fn of_colour(assignment: &Assignment, terms: &[TermJudgement], repaired: &Repair
     {
         return vec![line.clone()];
     }
-    let about = name.into_iter().flat_map(|name| assignment.lines_about(name));
+    let about = name.into_iter().flat_map(|name| assignment.lines_owning(name));
     // Where all stands is seen by itself.
     let about: Vec<&RubricLine> = about.filter(is_colour).collect();
     // What nothing shows by itself is wrong where it is made of what is wrong, and the others with it.

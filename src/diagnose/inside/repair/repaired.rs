@@ -41,6 +41,14 @@ impl Repaired {
         is_name || right.is_empty() || right.iter().any(|name| written.contains(name))
     }
 
+    /// Whether another whole number belongs there, or a variable in its place.
+    pub fn is_of_an_element(&self) -> bool {
+        let [written, right] = &self.texts;
+        let is_number = |text: &String| text.parse::<u32>().is_ok();
+        let is_name = right.chars().all(|c| c.is_alphanumeric() || c == '_');
+        is_number(written) && is_name
+    }
+
     /// What a teacher is shown of it.
     pub fn shown(&self, evidence: &Evidence<'_>) -> report::Repair {
         let [written, right] = self.texts.clone();
