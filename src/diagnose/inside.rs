@@ -150,6 +150,11 @@ pub(super) fn computed_lines(evidence: &Evidence<'_>) -> Vec<String> {
     within(evidence, evidence.assignment, &[], &[], |search| search.computed_lines()).unwrap_or_default()
 }
 
+/// The ids of those of which it computes the value of some turns of a loop, and not of all.
+pub(super) fn lines_of_some_turns(evidence: &Evidence<'_>) -> Vec<String> {
+    within(evidence, evidence.assignment, &[], &[], |search| search.lines_of_some_turns()).unwrap_or_default()
+}
+
 /// The ids of those of which the text also adds that value to what is seen as it is.
 pub(super) fn added_lines(evidence: &Evidence<'_>) -> Vec<String> {
     within(evidence, evidence.assignment, &[], &[], |search| search.added_lines()).unwrap_or_default()

@@ -1,13 +1,17 @@
 //! What an answer that is wrong somewhere keeps, for its text computes that right.
 
+use crate::compare::{COLOUR_TOLERANCE, colour_difference};
 use crate::diagnose::inside::{self, Finding};
 use crate::diagnose::trials::{FUEL_OF_TRACE, place};
 use crate::diagnose::{Evidence, addends};
+use crate::render::Sample;
+use glam::DVec3;
 use reference::Assignment;
 use reference::assignment::RubricLine;
 use reference::derived::is_derived;
-use reference::equation::Reads;
+use reference::equation::{DISCARDED, Reads};
 use reference::fit::TermJudgement;
+use reference::interpreter::DISCARD;
 use reference::mistake::FoundMistake;
 use reference::traced::ToldByOutputs;
 
@@ -30,6 +34,25 @@ pub fn by_outputs(evidence: &Evidence<'_>, known: Vec<TermJudgement>) -> Vec<Ter
     }
     // Something is wrong that no line tells.
     if terms.iter().all(TermJudgement::is_right) { known } else { terms }
+}
+
+/// The judgements; right is also what has nothing to do with what is thrown away, where nothing is wrong but that.
+pub fn beside_holes(evidence: &Evidence<'_>, mut terms: Vec<TermJudgement>) -> Vec<TermJudgement> {
+    let assignment = evidence.assignment;
+    let pairs = || evidence.probes.iter().zip(evidence.samples).map(|(probe, sample)| (probe.colour, sample));
+    let is_hole = |sample: &Sample| DVec3::from(sample.colour_f64()) == DISCARDED;
+    let is_other_hole = |(right, sample): (DVec3, &Sample)| (right == DISCARDED) != is_hole(sample);
+    let agrees = |(right, sample): (DVec3, &Sample)| {
+        right == DISCARDED || is_hole(sample) || colour_difference(right, sample) <= COLOUR_TOLERANCE
+    };
+    if assignment.is_judged(DISCARD) && pairs().any(is_other_hole) && pairs().all(agrees) {
+        let is_about = |term: &TermJudgement| assignment.lines_about(DISCARD).any(|line| line.id == term.line);
+        let judged = evidence.samples.len();
+        for term in terms.iter_mut().filter(|term| !is_about(term)) {
+            *term = TermJudgement::right(&term.line, judged);
+        }
+    }
+    terms
 }
 
 fn told_by_outputs(evidence: &Evidence<'_>) -> ToldByOutputs {
@@ -76,7 +99,7 @@ pub fn beside(evidence: &Evidence<'_>, mut terms: Vec<TermJudgement>, findings: 
 /// The ids of the lines that are about other variables of the solution than those in which places of mistakes were found; none where
 /// a place is all that is seen, or in none that a line is about. A line that judges where all stands has what moves that, and what
 /// follows from it.
-fn elsewhere(assignment: &Assignment, findings: &[Finding]) -> Option<Vec<String>> {
+pub fn elsewhere(assignment: &Assignment, findings: &[Finding]) -> Option<Vec<String>> {
     let owners = |finding: &Finding| -> Option<Vec<&RubricLine>> {
         if let Some(within) = finding.feature.as_ref().filter(|_| !finding.is_whole && !finding.touches_position) {
             return Some(assignment.rubric.iter().filter(|line| line.id == *within).collect());
@@ -102,7 +125,12 @@ pub fn by_text(evidence: &Evidence<'_>, found: &[FoundMistake]) -> Vec<String> {
         return Vec::new();
     }
     let costs = |line: &&RubricLine| found.iter().any(|found| assignment.keeps(found, line) < 1.0);
-    let costly: Vec<&str> = assignment.rubric.iter().filter(costs).map(|line| line.id.as_str()).collect();
+    let costly: Vec<&RubricLine> = assignment.rubric.iter().filter(costs).collect();
+    // What is within one feature is that line's, whatever else of it the text computes.
+    if costly.iter().filter(|line| !assignment.judges_position(line)).count() < 2 {
+        return Vec::new();
+    }
+    let costly: Vec<&str> = costly.into_iter().map(|line| line.id.as_str()).collect();
     if let ([_, _, ..], [_], Some(within)) = (&costly[..], found, inside::feature_of_all(evidence))
         && costly.contains(&within.as_str())
     {
@@ -119,7 +147,18 @@ fn computed_of(evidence: &Evidence<'_>, wrong: &[&str]) -> Vec<String> {
     let rubric = &evidence.assignment.rubric;
     let mut lines = inside::computed_lines(evidence);
     lines.extend(told_by_outputs(evidence).right.into_iter().map(|line| rubric[line].id.clone()));
-    let is_value = |number: usize| evidence.assignment.judges_a_value(number);
+    let is_turns = |number: usize| evidence.assignment.judges_turns(number);
+    let is_value = |number: usize| evidence.assignment.judges_a_value(number) && !is_turns(number);
+    let is_wrong = |line: &RubricLine| wrong.contains(&line.id.as_str()) && !lines.contains(&line.id);
+    // Where each wrong value is there in some turns, it is the turns that are wrong.
+    if let Some(turns) = (0..rubric.len()).find(|number| is_turns(*number) && is_wrong(&rubric[*number])) {
+        let some = inside::lines_of_some_turns(evidence);
+        let mut values = rubric.iter().enumerate().filter(|(number, line)| is_value(*number) && is_wrong(line));
+        if values.clone().next().is_some() && values.all(|(_, line)| some.contains(&line.id)) {
+            let others = rubric.iter().enumerate().filter(|(number, _)| *number != turns);
+            return others.map(|(_, line)| line.id.clone()).collect();
+        }
+    }
     let is_left = |(number, line): (usize, &RubricLine)| {
         is_value(number) && wrong.contains(&line.id.as_str()) && !lines.contains(&line.id)
     };

@@ -100,6 +100,7 @@ pub(super) fn unexplained(
             spared::by_outputs(evidence, spared::beside(evidence, addends::credit(evidence, terms), &findings))
         }
     };
+    let terms = spared::beside_holes(evidence, terms);
     let wrong = if repairs.is_empty() { terms.clone() } else { spared::computed(evidence, terms.clone()) };
     let repairs = repairs.into_iter().map(|repaired| (worth::charged(assignment, &wrong, &repaired), repaired));
     let repairs: Vec<(Vec<String>, Repaired)> = repairs.collect();

@@ -68,6 +68,21 @@ impl Search<'_, '_> {
         })
     }
 
+    /// The ids of those of which it computes the value of some turns of a loop, and not of all.
+    pub fn lines_of_some_turns(&self) -> Vec<String> {
+        self.lines_with(|search, feature| {
+            let count = feature.lanes.len();
+            let way = |trace| -> Vec<usize> { made_of(trace, &roots(trace)).into_iter().collect() };
+            let traces = [Stage::Vertex, Stage::Fragment].into_iter().filter_map(|stage| search.trace(stage));
+            let ways: Vec<(&Trace, Vec<usize>)> = traces.map(|trace| (trace, way(trace))).collect();
+            let has = |turn: usize| {
+                ways.iter().any(|(trace, way)| way.iter().any(|at| is_it(&trace.events[*at], feature, turn)))
+            };
+            let computed = (0..count).filter(|turn| has(*turn)).count();
+            0 < computed && computed < count
+        })
+    }
+
     /// The id of the line within whose feature values are that come of one mistake, in their order: the first one that has such a value to
     /// itself; none where another feature beside it has. Numbers that are the same everywhere tell nothing.
     pub fn line_around<'v>(&self, values: impl IntoIterator<Item = &'v ScalarColumns>) -> Option<String> {
