@@ -13,10 +13,11 @@ mod way;
 pub use archived::archived;
 pub(super) use archived::keep;
 pub use copy::copy;
-pub use plan::{CoursePlan, arrange, changed, points, reread, too_many};
+pub use plan::{CoursePlan, arrange, points, reread, set_places, too_many};
 pub(super) use way::{answer, within};
 pub use way::{at, public_address, root, root_of};
 
+use super::blocking::to_its_end;
 use super::errors::Problem;
 use super::identity::Teacher;
 use super::store::{Result as StoreResult, Store, StoredSubmission};
@@ -123,7 +124,8 @@ pub(super) async fn holding(first: &Service, id: &str) -> StoreResult<Option<(Se
 /// Makes a course without homeworks, students and lecturers.
 pub async fn make(first: &Service, id: &str, title: &str) -> Result<Service, Problem> {
     let settings = first.store.course().await?.titled(title)?;
-    filled(first, id, async |tables| Ok(tables.set_course(&settings).await?)).await
+    let (first, id) = (first.clone(), id.to_owned());
+    to_its_end(async move { filled(&first, &id, async |tables| Ok(tables.set_course(&settings).await?)).await }).await
 }
 
 /// Makes a course whose tables `fill` fills. Nobody sees it before they are filled: where that fails, there is no course.

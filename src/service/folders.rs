@@ -46,7 +46,7 @@ pub enum Publication {
 }
 
 /// Draws the right pictures of a homework, so that nobody's page waits for them.
-async fn drawn(assignment: &Arc<Assignment>) -> Result<(), Problem> {
+pub(super) async fn drawn(assignment: &Arc<Assignment>) -> Result<(), Problem> {
     let assignment = Arc::clone(assignment);
     aside(move || pages::warm(&assignment)).await
 }

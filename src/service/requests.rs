@@ -15,10 +15,21 @@ use std::time::{Duration, Instant};
 /// How many times longer than other requests those may take that a teacher sends: archives come, whole classes go.
 const TEACHERS_PATIENCE: f64 = 8.0;
 
-/// Whether a request is about a whole class. Others than teachers get a short answer there.
+/// What the routes begin with that are about a whole class or course.
+const ABOUT_A_CLASS: [&str; 7] = [
+    "/api/v1/batches",
+    "/api/v1/class",
+    "/api/v1/courses",
+    "/api/v1/folders",
+    "/api/v1/plan",
+    "/api/v1/platforms",
+    "/teacher",
+];
+
+/// Whether a request is about a whole class or course. Others than teachers get a short answer there.
 fn is_about_a_class(route: &str) -> bool {
     let route = route.strip_prefix(HOMEWORK).unwrap_or(route);
-    ["/api/v1/batches", "/api/v1/class", "/api/v1/folders", "/teacher"].iter().any(|start| route.starts_with(start))
+    ABOUT_A_CLASS.iter().any(|start| route.starts_with(start))
 }
 
 /// What the routes of a homework begin with.

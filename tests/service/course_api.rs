@@ -1,5 +1,6 @@
 //! A program sets a term up and runs it, by the API alone.
 
+mod plan;
 mod words;
 
 use crate::bench::{Bench, Reply, TEACHER, config};

@@ -1,6 +1,7 @@
 //! A course for the next term, made from another one.
 
 use super::super::Service;
+use super::super::blocking::to_its_end;
 use super::super::clock::{Millis, millis};
 use super::super::course::Course;
 use super::super::errors::Problem;
@@ -30,8 +31,9 @@ pub async fn copy(
     }
     // All is read before the course is begun: while its tables are filled, nothing else is written into the first course's.
     let source = Source::read(from, |at| Some(at? + millis(DAY) * days?)).await?;
+    let (first, id, title) = (first.clone(), id.to_owned(), title.to_owned());
     let now = first.clock.now();
-    filled(first, id, async |tables| source.write(tables, title, now).await).await
+    to_its_end(async move { filled(&first, &id, async |tables| source.write(tables, &title, now).await).await }).await
 }
 
 /// What a copy takes of a course, with the dates of the copy.

@@ -1,5 +1,6 @@
 //! Which homeworks a course has, and in which order.
 
+use super::super::blocking::to_its_end;
 use super::super::errors::Problem;
 use super::super::store::{CoursePlace, Result as StoreResult, Store};
 use super::super::{Service, folders, grading};
@@ -39,12 +40,25 @@ impl CoursePlan {
     }
 }
 
-/// Serves what the course has now, in its order; other processes learn of it as well.
-pub async fn changed(service: &Service) -> StoreResult<()> {
-    reread(service).await?;
-    grading::folders_changed(service).await;
-    grading::files_wait(service).await;
-    Ok(())
+/// Sets what the course says of homeworks, and serves what it has then; other processes learn of it as well.
+///
+/// What is chosen anew is drawn before anything changes: that takes seconds, in which a request may be given up. From then on all of
+/// it is done, so that the tables never say something else than what is served.
+pub async fn set_places(service: &Service, places: Vec<CoursePlace>) -> Result<(), Problem> {
+    let is_new = |id: &str| places.iter().any(|place| place.id == id && place.is_chosen != 0);
+    for assignment in service.offered().iter().filter(|one| is_new(&one.id) && service.homework(&one.id).is_none()) {
+        // A page that cannot be drawn says so itself.
+        let _ = folders::drawn(assignment).await;
+    }
+    let service = service.clone();
+    to_its_end(async move {
+        service.store.set_places(&places).await?;
+        reread(&service).await?;
+        grading::folders_changed(&service).await;
+        grading::files_wait(&service).await;
+        Ok(())
+    })
+    .await
 }
 
 /// Serves what the course has now, in its order.
@@ -76,8 +90,9 @@ pub async fn arrange(service: &Service, ids: &[String]) -> Result<(), Problem> {
     if ids.len() > MOST_ASSIGNMENTS {
         return Err(too_many());
     }
-    let left: Vec<String> = service.ids().into_iter().filter(|id| !ids.contains(id)).collect();
-    if let Some(id) = left.iter().find(|id| !service.is_beside() || service.named_as(id).is_none()) {
+    let folders: Vec<String> = service.store.published().await?.into_iter().map(|(id, _)| id).collect();
+    let must_stay = |id: &&String| !ids.contains(*id) && (!service.is_beside() || folders.contains(*id));
+    if let Some(id) = service.ids().iter().find(must_stay) {
         return Err(Problem::unprocessable(
             format!(
                 "`{id}` is served and must be in the list; what has a folder here is taken out of service with it."
@@ -87,20 +102,21 @@ pub async fn arrange(service: &Service, ids: &[String]) -> Result<(), Problem> {
             ),
         ));
     }
-    let chosen: Vec<&String> = ids.iter().filter(|id| service.homework(id).is_none()).collect();
-    for id in &chosen {
+    for id in ids {
         service.store.assignment(id).await?;
     }
+    // All that another course chooses is set, by what the tables say of it: what is served may be less, or more.
+    let is_choice = |id: &String| service.is_beside() && !folders.contains(id);
     let mut places = service.store.places().await?;
-    places.retain(|place| ids.contains(&place.id) || left.contains(&place.id));
+    places.retain(|place| ids.contains(&place.id) || is_choice(&place.id));
     for place in &mut places {
-        place.position = ids.iter().position(|id| *id == place.id).and_then(|index| i64::try_from(index).ok());
-        if chosen.contains(&&place.id) || left.contains(&place.id) {
-            place.is_chosen = i64::from(!left.contains(&place.id));
+        let index = ids.iter().position(|id| *id == place.id);
+        place.position = index.and_then(|index| i64::try_from(index).ok());
+        if is_choice(&place.id) {
+            place.is_chosen = i64::from(index.is_some());
         }
     }
-    service.store.set_places(&places).await?;
-    Ok(changed(service).await?)
+    set_places(service, places).await
 }
 
 /// The refusal of more homeworks than workers read.

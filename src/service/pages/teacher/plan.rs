@@ -149,8 +149,7 @@ pub(in crate::service::pages) async fn save(
     match places(&service, &frame, &fields, &added).await? {
         Ok(places) => {
             let before = described(&service, &frame, &places, service.store.places().await?);
-            service.store.set_places(&places).await?;
-            courses::changed(&service).await?;
+            courses::set_places(&service, places.clone()).await?;
             let after = described(&service, &frame, &places, service.store.places().await?);
             Ok(Detail::of(changes(&before, &after)).on(Redirect::to("/teacher/plan").into_response()))
         }
