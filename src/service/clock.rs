@@ -15,6 +15,19 @@ pub fn local_minute(at: Millis, zone: &TimeZone) -> String {
     timestamp.to_zoned(zone.clone()).strftime("%Y-%m-%dT%H:%M").to_string()
 }
 
+/// The same as the log has it: with seconds where there are some, and with the offset where the zone has two such times.
+pub fn local_moment(at: Millis, zone: &TimeZone) -> String {
+    let local = Timestamp::from_millisecond(at).unwrap_or_default().to_zoned(zone.clone());
+    let mut text = local_minute(at, zone);
+    if local.second() != 0 {
+        text += &local.strftime(":%S").to_string();
+    }
+    if zone.to_ambiguous_timestamp(local.datetime()).is_ambiguous() {
+        text += &local.strftime("%:z").to_string();
+    }
+    text
+}
+
 /// A clock.
 #[derive(Clone, Debug, Default)]
 pub struct Clock(Option<Arc<AtomicI64>>);

@@ -1,6 +1,6 @@
 //! What a homework's rules may be, whoever sets them: a form or a program.
 
-use super::clock::{Millis, local_minute};
+use super::clock::{Millis, local_moment};
 use super::store::{AssignmentSettings, CoursePlace, word};
 use crate::language::Text;
 use crate::report::text::number;
@@ -70,7 +70,7 @@ pub fn check(rules: &AssignmentSettings) -> Result<(), Text> {
 
 /// Rules in the words of the log of acts.
 pub fn described(rules: &AssignmentSettings, zone: &TimeZone) -> [(&'static str, String); 12] {
-    let date = |at: Option<Millis>| at.map(|at| local_minute(at, zone)).unwrap_or_default();
+    let date = |at: Option<Millis>| at.map(|at| local_moment(at, zone)).unwrap_or_default();
     let late = &rules.late;
     [
         ("opens", date(rules.opens_at)),
@@ -92,7 +92,7 @@ pub fn described(rules: &AssignmentSettings, zone: &TimeZone) -> [(&'static str,
 pub fn described_place(place: &CoursePlace, zone: &TimeZone) -> [(&'static str, String); 2] {
     let shown = match (place.is_hidden, place.shown_from) {
         (0, None) => "now".to_owned(),
-        (0, Some(from)) => local_minute(from, zone),
+        (0, Some(from)) => local_moment(from, zone),
         _ => "hidden".to_owned(),
     };
     [("points", place.points.map(number).unwrap_or_default()), ("shown", shown)]

@@ -5,8 +5,9 @@ use crate::cluster::Database;
 use crate::roster::{WRONG, archive, file, form, get, made, request, zip};
 use crate::{on_both, sample};
 use axum::http::StatusCode;
+use serde_json::json;
 
-on_both!(zone_and_language_are_the_courses);
+on_both!(zone_and_language_are_the_courses, a_date_that_comes_back_as_it_was_shown_does_not_move,);
 
 async fn zone_and_language_are_the_courses(database: Database) {
     let bench = Bench::new(database).await;
@@ -44,5 +45,38 @@ async fn zone_and_language_are_the_courses(database: Database) {
         "{:?}",
         desk.all(".terms-of-hand-in")
     );
+    bench.finish().await;
+}
+
+async fn a_date_that_comes_back_as_it_was_shown_does_not_move(database: Database) {
+    let bench = Bench::new(database).await;
+    assert_eq!(form(&bench, "/teacher/course", "zone=Europe%2FBerlin&language=en").await.status, 303);
+    let settings = "/api/v1/assignments/ggsample06/settings";
+    let set = async |due_at: &str| {
+        let wish = json!({ "due_at": due_at }).to_string();
+        assert_eq!(bench.send(request("PATCH", settings, "application/json", wish)).await.status, StatusCode::OK);
+    };
+    // A second before midnight, and the second half past two of the night in which summer time ends.
+    for (due_at, shown) in [("2026-12-11T22:59:59Z", "2026-12-11T23:59"), ("2027-10-31T01:30:00Z", "2027-10-31T02:30")]
+    {
+        set(due_at).await;
+        assert!(get(&bench, "/teacher/settings").await.text().contains(&format!("value=\"{shown}\"")));
+        let fields = format!("closes={}&attempts=3&hints=full&audience=open", shown.replace(':', "%3A"));
+        assert_eq!(form(&bench, "/teacher/settings", &fields).await.status, 303);
+        assert_eq!(get(&bench, settings).await.json()["due_at"], due_at);
+    }
+    // The log tells the two apart.
+    set("2027-10-31T00:30:00Z").await;
+    let log = get(&bench, "/teacher/log").await.all(".people tbody tr");
+    assert!(log[0].contains("closes: 2027-10-31T02:30+01:00 → 2027-10-31T02:30+02:00"), "{log:?}");
+
+    bench.state.store.student("S1", 0).await.expect("a store").expect("a student");
+    let own = json!({ "whose": "S1", "due_at": "2027-11-01T22:59:59Z", "reason": "ill" }).to_string();
+    assert_eq!(bench.send(request("PUT", "/api/v1/extensions", "application/json", own)).await.status, 204);
+    let fields = "whose=S1&closes=2027-11-01T23%3A59&reason=well";
+    assert_eq!(form(&bench, "/teacher/extensions", fields).await.status, 303);
+    let extensions = get(&bench, "/api/v1/extensions").await.json();
+    assert_eq!(extensions["extensions"][0]["due_at"], "2027-11-01T22:59:59Z");
+    assert_eq!(extensions["extensions"][0]["reason"], "well");
     bench.finish().await;
 }

@@ -1,7 +1,7 @@
 //! Moments as people read them, in the time zone of the course.
 
-use crate::language::Language;
-use crate::service::clock::Millis;
+use crate::language::{Language, Text};
+use crate::service::clock::{Millis, local_minute};
 use jiff::civil::DateTime;
 use jiff::tz::TimeZone;
 use jiff::{Timestamp, Zoned};
@@ -50,19 +50,29 @@ fn local(at: Millis, zone: &TimeZone) -> Zoned {
     Timestamp::from_millisecond(at).unwrap_or_default().to_zoned(zone.clone())
 }
 
-/// What a `datetime-local` field holds: none where it is empty, an error where it is no date.
-pub(super) fn parse(field: &str, zone: &TimeZone) -> Result<Option<Millis>, jiff::Error> {
-    if field.trim().is_empty() {
+/// What a `datetime-local` field holds: none where it is empty, what is wrong where it is no date. A field that comes back as it was
+/// shown is the moment that was `shown`: it has no seconds, and does not tell apart the two moments of one local time that there are
+/// when summer time ends.
+pub(super) fn parse(field: &str, zone: &TimeZone, shown: Option<Millis>) -> Result<Option<Millis>, Text> {
+    let field = field.trim();
+    if field.is_empty() {
         return Ok(None);
     }
-    let local: DateTime = field.trim().parse()?;
-    Ok(Some(local.to_zoned(zone.clone())?.timestamp().as_millisecond()))
+    if shown.is_some_and(|at| local_minute(at, zone) == field) {
+        return Ok(shown);
+    }
+    let moment = |local: DateTime| local.to_zoned(zone.clone()).map(|zoned| zoned.timestamp());
+    let at = field.parse::<DateTime>().and_then(moment).map_err(|_| no_date())?;
+    Ok(Some(at.as_millisecond()))
+}
+
+fn no_date() -> Text {
+    Text::new("A date has the form 2026-12-31T23:59.", "日時は 2026-12-31T23:59 の形で入力してください。")
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::service::clock::local_minute;
     use crate::service::course::Course;
 
     /// 2026-11-21T13:05:00Z; Tokyo is nine hours ahead, New York five behind.
@@ -91,10 +101,16 @@ mod tests {
     #[test]
     fn a_field_comes_back_as_it_was() {
         for zone in [zone("Asia/Tokyo"), zone("America/New_York")] {
-            assert_eq!(parse(&local_minute(AT, &zone), &zone).expect("a date"), Some(AT));
-            assert_eq!(parse(" ", &zone).expect("nothing"), None);
-            assert!(parse("tomorrow", &zone).is_err());
+            assert_eq!(parse(&local_minute(AT, &zone), &zone, None), Ok(Some(AT)));
+            assert_eq!(parse(&local_minute(AT, &zone), &zone, Some(AT + 59_000)), Ok(Some(AT + 59_000)));
+            assert_eq!(parse(" ", &zone, Some(AT)), Ok(None));
+            assert!(parse("tomorrow", &zone, None).is_err());
         }
         assert_eq!(local_minute(AT, &zone("Asia/Tokyo")), "2026-11-21T22:05");
+        // The end of summer time: 02:30 comes at 00:30 UTC and again at 01:30. Typed anew it is the first.
+        let (first, second) = (1_824_942_600_000, 1_824_946_200_000);
+        let (field, berlin) = ("2027-10-31T02:30", zone("Europe/Berlin"));
+        assert_eq!(parse(field, &berlin, None), Ok(Some(first)));
+        assert_eq!(parse(field, &berlin, Some(second)), Ok(Some(second)));
     }
 }

@@ -56,19 +56,11 @@ pub(in crate::service::pages) struct ExtensionForm {
 }
 
 impl ExtensionForm {
-    /// The date that was typed.
-    fn date(&self, frame: &PageFrame) -> Result<Option<i64>, Problem> {
-        datetime::parse(&self.closes, frame.course.zone()).map_err(|_| {
-            Problem::unprocessable(
-                "A date has the form 2026-12-31T23:59.",
-                "日時は 2026-12-31T23:59 の形で入力してください。",
-            )
-        })
-    }
-
     /// Does what the form asks for; what the log says of it.
     async fn carry_out(&self, state: &State, frame: &PageFrame, to: &Beneficiary) -> Result<Detail, Problem> {
-        let closes_at = self.date(frame)?;
+        let kept = state.store.extension(&state.assignment.id, to).await?.map(|kept| kept.closes_at);
+        let closes_at = datetime::parse(&self.closes, frame.course.zone(), kept)
+            .map_err(|wrong| Problem::unprocessable(wrong.en, wrong.ja))?;
         let reason = grant(state, to, closes_at, &self.reason).await?;
         let until = if closes_at.is_some() { self.closes.as_str() } else { "–" };
         Ok(match to {

@@ -220,12 +220,9 @@ fn read(frame: &PageFrame, fields: &Fields, place: CoursePlace) -> Result<Course
             Some(points.map_err(|wrong| wrong.get(frame.language).to_owned())?)
         }
     };
-    let from = datetime::parse(field(fields, "from", &place.id).unwrap_or_default(), frame.course.zone());
-    let from = from.map_err(|_| {
-        frame
-            .say("A date has the form 2026-12-31T23:59.", "日時は 2026-12-31T23:59 の形で入力してください。")
-            .to_owned()
-    })?;
+    let from = field(fields, "from", &place.id).unwrap_or_default();
+    let from = datetime::parse(from, frame.course.zone(), place.shown_from);
+    let from = from.map_err(|wrong| wrong.get(frame.language).to_owned())?;
     let (is_hidden, shown_from) = match (field(fields, "seen", &place.id), from) {
         (Some("hidden"), _) => (1, None),
         (Some("from"), None) => {

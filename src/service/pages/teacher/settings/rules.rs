@@ -65,21 +65,17 @@ impl RulesForm {
 
     /// The settings that the form asks for.
     pub(super) fn read(&self, frame: &PageFrame, before: AssignmentSettings) -> Result<AssignmentSettings, String> {
-        let date = |field: &str| {
-            datetime::parse(field, frame.course.zone()).map_err(|_| {
-                frame
-                    .say("A date has the form 2026-12-31T23:59.", "日時は 2026-12-31T23:59 の形で入力してください。")
-                    .to_owned()
-            })
+        let date = |field: &str, shown: Option<Millis>| {
+            datetime::parse(field, frame.course.zone(), shown).map_err(|wrong| wrong.get(frame.language).to_owned())
         };
         let attempts = match self.attempts.trim() {
             "" => None,
             number => Some(number.parse().map_err(|_| rules::no_attempts().get(frame.language).to_owned())?),
         };
-        let (opens_at, closes_at) = (date(&self.opens)?, date(&self.closes)?);
+        let (opens_at, closes_at) = (date(&self.opens, before.opens_at)?, date(&self.closes, before.closes_at)?);
         let (hints, audience) = (read_hints(&self.hints), read_audience(&self.audience));
         let practice = !self.practice.is_empty();
-        let late = self.late.read(date(&self.late.late_until)?);
+        let late = self.late.read(date(&self.late.late_until, before.late.until)?);
         let counting = match self.counting.as_str() {
             "last" => Counting::Last,
             "chosen" => Counting::Chosen,
