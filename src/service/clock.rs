@@ -1,7 +1,7 @@
 //! What time it is: the machine's, or one that a test sets.
 
-use jiff::Timestamp;
 use jiff::tz::TimeZone;
+use jiff::{Span, Timestamp};
 use std::sync::atomic::{AtomicI64, Ordering};
 use std::sync::{Arc, LazyLock};
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
@@ -26,6 +26,13 @@ pub fn local_moment(at: Millis, zone: &TimeZone) -> String {
         text += &local.strftime("%:z").to_string();
     }
     text
+}
+
+/// The same local time some days later, or earlier: a day in which the clocks are set has 23 or 25 hours. What no calendar has stays.
+pub fn days_later(at: Millis, days: i64, zone: &TimeZone) -> Millis {
+    let moved = |at: Timestamp| at.to_zoned(zone.clone()).checked_add(Span::new().try_days(days)?);
+    let moved = Timestamp::from_millisecond(at).and_then(moved);
+    moved.map_or(at, |moved| moved.timestamp().as_millisecond())
 }
 
 /// A clock.

@@ -112,6 +112,11 @@ async fn a_program_sets_a_course_up_and_runs_it(database: Database) {
     done(&bench, Method::POST, "/api/v1/courses", copy).await;
     let copied = read(&bench, "/c/cg-2/api/v1/assignments/ggsample06/settings").await;
     assert_eq!((&copied["due_at"], &copied["points"]), (&json!("2031-05-31T00:00:00Z"), &json!(40.0)));
+    // Half a year later it is winter in Berlin: two in the morning is one hour later in UTC.
+    let copy = json!({ "id": "cg-w", "title": "Graphics", "copy_of": "cg", "days": 182 });
+    done(&bench, Method::POST, "/api/v1/courses", copy).await;
+    let copied = read(&bench, "/c/cg-w/api/v1/assignments/ggsample06/settings").await;
+    assert_eq!(copied["due_at"], "2030-11-30T01:00:00Z");
     done(&bench, Method::PATCH, "/c/cg/api/v1/course", json!({ "is_archived": true })).await;
     let refused = api(&bench, TEACHER, Method::PATCH, "/c/cg/api/v1/course", &json!({ "title": "X" })).await;
     assert_eq!(refused.problem(), "archived");
@@ -120,7 +125,7 @@ async fn a_program_sets_a_course_up_and_runs_it(database: Database) {
     done(&bench, Method::PATCH, "/c/cg/api/v1/course", json!({ "is_archived": false })).await;
     let courses = read(&bench, "/api/v1/courses").await;
     let roots: Vec<_> = courses["courses"].as_array().expect("courses").iter().map(|one| &one["root"]).collect();
-    assert_eq!(roots, [&json!(""), &json!("/c/cg"), &json!("/c/cg-2")]);
+    assert_eq!(roots, [&json!(""), &json!("/c/cg"), &json!("/c/cg-2"), &json!("/c/cg-w")]);
 
     // Each of these stands in the log of its course.
     let log = read(&bench, "/c/cg/api/v1/log").await;

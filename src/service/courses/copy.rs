@@ -2,21 +2,19 @@
 
 use super::super::Service;
 use super::super::blocking::to_its_end;
-use super::super::clock::{Millis, millis};
+use super::super::clock::{Millis, days_later};
 use super::super::course::Course;
 use super::super::errors::Problem;
 use super::super::store::{AssignmentSettings, CoursePlace, LateRules, Result as StoreResult, Store, UploadedFolder};
 use super::filled;
 use reference::Folder;
-use std::time::Duration;
-
-const DAY: Duration = Duration::from_secs(24 * 3600);
 
 /// Most days by which dates are shifted: ten years.
 const MOST_DAYS: i64 = 3660;
 
 /// Makes a course with the homeworks of another one, their order, points, rules and folders; without students, hand-ins and
-/// lecturers. `days` shifts every date; without it, the copy has none. Seeds are drawn anew.
+/// lecturers. `days` of the calendar shift every date, which keeps its time of day; without them, the copy has none. Seeds are drawn
+/// anew.
 pub async fn copy(
     first: &Service,
     from: &Service,
@@ -30,7 +28,8 @@ pub async fn copy(
         ));
     }
     // All is read before the course is begun: while its tables are filled, nothing else is written into the first course's.
-    let source = Source::read(from, |at| Some(at? + millis(DAY) * days?)).await?;
+    let zone = from.store.course().await?.zone().clone();
+    let source = Source::read(from, |at| Some(days_later(at?, days?, &zone))).await?;
     let (first, id, title) = (first.clone(), id.to_owned(), title.to_owned());
     let now = first.clock.now();
     to_its_end(async move { filled(&first, &id, async |tables| source.write(tables, &title, now).await).await }).await
