@@ -213,11 +213,15 @@ async fn the_roster_is_the_platforms(database: Database) {
     registered(&bench, &platform).await;
     launch(&bench, &platform, "teacher", "Instructor").await;
     let id = bench.state.store.platforms().await.expect("platforms")[0].id.clone();
-    let page = form(&bench, "/teacher/platforms", &format!("wish=roster&platform={id}&link=3")).await;
-    assert!(page.text().contains("2 students are on the roster now."), "{}", page.text());
-    let roster = bench.state.store.roster().await.expect("a roster");
-    let lines: Vec<(&str, &str)> = roster.iter().map(|who| (who.number.as_str(), who.name.as_str())).collect();
-    assert_eq!(lines, [("S1", "Name of s1"), ("S2", "Name of s2")]);
+    // A platform that shares no names takes none away.
+    for is_nameless in [false, true] {
+        platform.seen().is_nameless = is_nameless;
+        let page = form(&bench, "/teacher/platforms", &format!("wish=roster&platform={id}&link=3")).await;
+        assert!(page.text().contains("2 students are on the roster now."), "{}", page.text());
+        let roster = bench.state.store.roster().await.expect("a roster");
+        let lines: Vec<(&str, &str)> = roster.iter().map(|who| (who.number.as_str(), who.name.as_str())).collect();
+        assert_eq!(lines, [("S1", "Name of s1"), ("S2", "Name of s2")]);
+    }
     // Who comes later is the one of the roster, and is let in without a code.
     let student = cookie(&launch(&bench, &platform, "s2", "Learner").await, "ggrade");
     assert_eq!(hand_in(&bench, &student, right()).await.status, StatusCode::CREATED);

@@ -50,7 +50,7 @@ impl PlatformMember {
         let parts = [self.family_name, self.given_name];
         let joined = || parts.iter().flatten().map(String::as_str).collect::<Vec<_>>().join(" ");
         Described {
-            name: self.name.clone().unwrap_or_else(joined),
+            name: self.name.clone().filter(|name| !name.trim().is_empty()).unwrap_or_else(joined),
             numbers: [self.lis_person_sourcedid, self.ext_user_username].into_iter().flatten().collect(),
             subject: self.user_id,
         }
@@ -81,7 +81,9 @@ pub async fn import(service: &Service, platform: &Platform, link: &Link) -> Resu
         // Whoever has a number is matched by it; the others get one that is made of the platform's id.
         let student = student(service, platform, who).await?;
         let is_own = who.numbers.iter().filter_map(|number| normal_number(number)).any(|n| n == student.number);
-        let name = if student.name.is_empty() || is_own { who.name.clone() } else { student.name.clone() };
+        // A platform may share no names: it takes none away by that.
+        let is_named = !who.name.trim().is_empty() && (is_own || student.name.is_empty());
+        let name = if is_named { who.name.clone() } else { student.name.clone() };
         lines.insert(student.number.clone(), RosterLine { name, ..line(student) });
     }
     let lines: Vec<RosterLine> = lines.into_values().collect();

@@ -37,6 +37,8 @@ pub struct Seen {
     pub tools_keys: Option<JwkSet>,
     pub registration: Value,
     pub scores: Vec<Value>,
+    /// Shares no names of its people.
+    pub is_nameless: bool,
     /// Answers scores with this status.
     pub failing: Option<StatusCode>,
     tokens: usize,
@@ -263,8 +265,8 @@ async fn memberships(
     assert_eq!(headers[header::ACCEPT], "application/vnd.ims.lti-nrps.v2.membershipcontainer+json");
     let member = |id: &str, role: &str, status: &str| {
         let role = format!("http://purl.imsglobal.org/vocab/lis/v2/membership#{role}");
-        json!({ "user_id": id, "name": format!("Name of {id}"), "lis_person_sourcedid": id, "roles": [role],
-            "status": status })
+        let name = (!platform.seen().is_nameless).then(|| format!("Name of {id}"));
+        json!({ "user_id": id, "name": name, "lis_person_sourcedid": id, "roles": [role], "status": status })
     };
     let kind = (header::CONTENT_TYPE, "application/vnd.ims.lti-nrps.v2.membershipcontainer+json".to_owned());
     if query.contains_key("page") {
