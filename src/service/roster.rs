@@ -56,10 +56,10 @@ pub fn not_on_roster(number: &str) -> Problem {
         axum::http::StatusCode::UNPROCESSABLE_ENTITY,
         "not-on-roster",
         format!(
-            "The student number {number} is not on the class's roster. Check it for typing errors; if it is right, ask your teacher to add it."
+            "The student number {number} is not on the class's roster. Check it for typing errors; if it is right, ask your teacher to add it. If you came from a learning platform, open the homework there again."
         ),
         format!(
-            "学籍番号 {number} はこのクラスの名簿にありません。入力の誤りがないか確認し、正しい場合は担当教員に登録を依頼してください。"
+            "学籍番号 {number} はこのクラスの名簿にありません。入力の誤りがないか確認し、正しい場合は担当教員に登録を依頼してください。学習プラットフォームから来た場合は、そこで課題を開き直してください。"
         ),
     )
 }

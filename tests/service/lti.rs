@@ -3,6 +3,7 @@
 mod courses;
 mod forged;
 mod launch;
+mod people;
 pub mod platform;
 
 use crate::bench::{Bench, config};

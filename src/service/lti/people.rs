@@ -17,14 +17,19 @@ pub(super) struct Described {
 }
 
 /// The student that somebody is: the one they were before, else the one with their number. Of a number that is somebody else's of
-/// the same platform they get none, but one that is made of the platform's id.
+/// the same platform they get none, but one that is made of the platform's id. Where there is a roster, they stand on it from now on:
+/// the platform knows its courses.
 pub(super) async fn student(service: &Service, platform: &Platform, who: &Described) -> Result<StudentRecord, Problem> {
     let store = &service.store;
     let known = store.platform_person(&platform.id, &who.subject).await?;
     if let Some(id) = known.and_then(|person| person.student_id)
         && let Some(student) = store.student_by_id(&id).await?
     {
-        return Ok(student);
+        if student.is_on_roster() {
+            return Ok(student);
+        }
+        // A roster that was imported since then may lack them.
+        return Ok(store.enrol(&line(&student.number, who), service.clock.now()).await?);
     }
     let own = format!("LTI-{}", &token_hash(&format!("{} {}", platform.id, who.subject))[..10]).to_uppercase();
     let mut numbers: Vec<String> = who.numbers.iter().filter_map(|number| normal_number(number)).collect();
@@ -52,8 +57,11 @@ pub(super) async fn student(service: &Service, platform: &Platform, who: &Descri
     Ok(student)
 }
 
-/// A student whom the platform has and the roster has not. The platform knows its courses: where there is a roster, they
-/// stand on it from now on.
+fn line(number: &str, who: &Described) -> RosterLine {
+    RosterLine { number: number.to_owned(), name: who.name.clone(), ..RosterLine::default() }
+}
+
+/// A student whom the platform has and the roster has not.
 async fn enrolled(
     service: &Service,
     platform: &Platform,
@@ -62,8 +70,7 @@ async fn enrolled(
 ) -> Result<StudentRecord, Problem> {
     let store = &service.store;
     for number in numbers {
-        let line = RosterLine { number: number.clone(), name: who.name.clone(), ..RosterLine::default() };
-        let student = store.enrol(&line, service.clock.now()).await?;
+        let student = store.enrol(&line(number, who), service.clock.now()).await?;
         if store.is_taken(&platform.id, &who.subject, &student.id).await? {
             continue;
         }
