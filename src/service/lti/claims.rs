@@ -150,6 +150,11 @@ impl Claims {
         roles::staff_role(&self.roles)
     }
 
+    /// Whether they are a student of the course.
+    pub fn is_learner(&self) -> bool {
+        roles::is_learner(&self.roles)
+    }
+
     /// Their name, as far as the platform tells it.
     pub fn full_name(&self) -> String {
         let parts = [&self.family_name, &self.given_name];

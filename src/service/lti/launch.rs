@@ -129,6 +129,9 @@ async fn open(
             refused("The launch is of no link (resource_link).", "起動元のリンク (resource_link) が示されていません。")
         })?;
     let who = described(claims)?;
+    if claims.staff_role().is_none() && !claims.is_learner() {
+        return Err(looks_on());
+    }
     let state = homework(service, platform, claims, &link).await?;
     if let Some(state) = &state {
         note_link(service, platform, claims, (&link, state)).await?;
@@ -160,6 +163,16 @@ async fn open(
         forget_session(service, &mut response, jar);
     }
     Ok(response)
+}
+
+/// The refusal of who is in the platform's course and neither learns nor teaches there, as a mentor or a developer of content: the
+/// class and its gradebook are those who learn.
+fn looks_on() -> Problem {
+    refused(
+        "In the learning platform's course you are neither a student nor one of those who teach, so this homework is not opened \
+         for you. Whoever teaches that course can give you another role there.",
+        "学習プラットフォームのコースで学生・教員・アシスタントのいずれでもないため、課題を開けません。コースの担当教員に役割の変更を依頼してください。",
+    )
 }
 
 /// The homework that a link is for: what the link itself says, where it leads, what it was before, or the only one.
