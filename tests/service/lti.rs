@@ -158,13 +158,28 @@ async fn scores_go_home_until_they_arrive(database: Database) {
     hand_in(&bench, &student, sample("rejected/brace-missing-at-end.vert")).await;
     send_due(&bench.state).await;
     assert_eq!(platform.seen().scores.len(), 1);
-    hand_in(&bench, &student, right()).await;
+    let counts = hand_in(&bench, &student, right()).await.id();
     send_due(&bench.state).await;
     send_due(&bench.state).await;
     let scores = platform.seen().scores.clone();
     assert_eq!((scores.len(), &scores[1]["scoreGiven"]), (2, &json!(100.0)));
     let second = |score: &Value| score["timestamp"].as_str().map(|at| at[..19].to_owned());
     assert!(second(&scores[1]) > second(&scores[0]), "Moodle counts whole seconds: {scores:?}");
+    // So does what people say of it, and that they take it back, with equal points.
+    let comments = format!("/api/v1/submissions/{counts}/comments");
+    let wish = json!({ "line": 3, "text": "Why so?" }).to_string();
+    let said = bench.send(request("POST", &comments, "application/json", wish)).await;
+    for (is_said, address) in [(true, String::new()), (false, format!("{comments}/{}", said.id()))] {
+        if !is_said {
+            let removed = bench.send(request("DELETE", &address, "", Body::empty())).await;
+            assert_eq!(removed.status, StatusCode::NO_CONTENT);
+        }
+        send_due(&bench.state).await;
+        send_due(&bench.state).await;
+        let score = platform.seen().scores.pop().expect("a score");
+        assert_eq!(score["comment"].as_str().expect("a comment").contains("Why so?"), is_said, "{score}");
+        assert_eq!(platform.seen().scores.len(), 2, "each is sent once");
+    }
     // What lateness takes off goes home as well, and is said.
     let rules = bench.state.store.assignment("ggsample06").await.expect("rules");
     let late = LateRules { until: Some(now + 86_400_000), percent: 15.0, ..LateRules::default() };

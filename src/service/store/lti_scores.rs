@@ -3,7 +3,8 @@
 use super::{Result, Store, on};
 use crate::service::clock::Millis;
 
-/// A score that a platform has still to get: the one that counts of a student, where that is not what was sent last.
+/// A score that a platform has still to get: the one that counts of a student, where that or the feedback beside it is not what was
+/// sent last.
 #[derive(Clone, Debug, PartialEq, sqlx::FromRow)]
 pub struct DueScore {
     /// Id of the platform.
@@ -18,6 +19,8 @@ pub struct DueScore {
     pub submission_id: String,
     /// Its points, without what lateness takes off.
     pub score: f64,
+    /// What tells its feedback from an earlier one: when it was graded, and how many comments and overrides there are since when.
+    pub feedback: String,
     /// When the last one was sent; 0: none was.
     pub sent_at: Millis,
     /// How often sending has failed since.
@@ -41,10 +44,16 @@ impl Store {
     /// Scores that are due at `now`, as many as are sent in one go. The attempt counts that [`counted`](crate::service::counting::counted)
     /// names. Where the one that was sent is deleted, no lower one takes its place: what is too old to be kept costs nobody a point.
     pub async fn due_scores(&self, now: Millis) -> Result<Vec<DueScore>> {
-        const SQL: &str = "SELECT platform_id, link_id, subject, line_item, submission_id, score, sent_at, tries FROM \
+        const SQL: &str = "SELECT platform_id, link_id, subject, line_item, submission_id, score, feedback, sent_at, tries FROM \
+                           (SELECT best.*, graded_at || ' ' || \
+                           (SELECT count(*) || ' ' || coalesce(max(c.at), 0) FROM comments c \
+                           WHERE c.submission_id = best.submission_id) || ' ' || \
+                           (SELECT count(*) || ' ' || coalesce(max(o.at), 0) FROM overrides o \
+                           WHERE o.submission_id = best.submission_id) AS feedback FROM \
                            (SELECT k.platform_id, k.link_id, k.subject, l.line_item, s.id AS submission_id, \
-                           r.score - n.penalty AS score, \
+                           r.score - n.penalty AS score, r.graded_at, \
                            k.sent_at, k.tries, k.submission_id AS sent_id, k.score AS sent_score, \
+                           k.feedback AS sent_feedback, \
                            ROW_NUMBER() OVER (PARTITION BY k.platform_id, k.link_id, k.subject \
                            ORDER BY CASE WHEN a.counting = 'chosen' THEN coalesce(s.chosen_at, 0) ELSE 0 END DESC, \
                            CASE WHEN a.counting = 'best' THEN r.score - n.penalty ELSE 0 END DESC, \
@@ -57,9 +66,9 @@ impl Store {
                            AND s.via <> 'editor' JOIN reports r ON r.submission_id = s.id \
                            JOIN assignments a ON a.id = s.assignment \
                            JOIN lateness n ON n.submission_id = s.id \
-                           WHERE k.next_at <= $1 AND l.line_item IS NOT NULL) AS best \
-                           WHERE place = 1 AND (sent_id IS NULL OR sent_id <> submission_id OR sent_score <> score) \
-                           AND (sent_id IS NULL OR score >= sent_score \
+                           WHERE k.next_at <= $1 AND l.line_item IS NOT NULL) AS best WHERE place = 1) AS due \
+                           WHERE (sent_id IS NULL OR sent_id <> submission_id OR sent_score <> score \
+                           OR sent_feedback <> feedback) AND (sent_id IS NULL OR score >= sent_score \
                            OR EXISTS (SELECT 1 FROM submissions g WHERE g.id = sent_id)) \
                            ORDER BY tries, platform_id, link_id, subject LIMIT 50";
         Ok(on!(&self.read, db => sqlx::query_as(SQL).bind(now).fetch_all(db).await?))
@@ -67,8 +76,8 @@ impl Store {
 
     /// Notes that a score has arrived, with the time that it was given.
     pub async fn score_sent(&self, due: &DueScore, at: Millis) -> Result<()> {
-        const SQL: &str = "UPDATE lti_scores SET submission_id = $4, score = $5, sent_at = $6, tries = 0, next_at = 0, \
-                           problem = NULL WHERE platform_id = $1 AND link_id = $2 AND subject = $3";
+        const SQL: &str = "UPDATE lti_scores SET submission_id = $4, score = $5, sent_at = $6, feedback = $7, tries = 0, \
+                           next_at = 0, problem = NULL WHERE platform_id = $1 AND link_id = $2 AND subject = $3";
         on!(&self.write, db => {
             sqlx::query(SQL)
                 .bind(&due.platform_id)
@@ -77,6 +86,7 @@ impl Store {
                 .bind(&due.submission_id)
                 .bind(due.score)
                 .bind(at)
+                .bind(&due.feedback)
                 .execute(db)
                 .await?;
         });
