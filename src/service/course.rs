@@ -102,7 +102,8 @@ impl Store {
     pub async fn set_course(&self, course: &Course) -> StoreResult<()> {
         let zone = course.zone_name().to_owned();
         let stored = StoredCourse { zone, language: course.language, title: course.title.clone() };
-        self.set_setting(SETTING, &serde_json::to_string(&stored)?).await
+        self.set_setting(SETTING, &serde_json::to_string(&stored)?).await?;
+        self.keep_zone(course.zone()).await
     }
 }
 

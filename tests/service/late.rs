@@ -19,6 +19,7 @@ on_both!(
     a_late_hand_in_loses_what_the_rules_say,
     what_is_wrong_with_the_rules_is_said,
     groups_and_students_have_later_deadlines,
+    a_late_day_is_one_of_the_calendar,
 );
 
 /// Gives the points that stand in the file's first line.
@@ -248,5 +249,31 @@ async fn groups_and_students_have_later_deadlines(database: Database) {
     // Whoever changes groups has the deadline of the new one.
     file(&bench, "/teacher/roster", "roster", "r.csv", ROSTER.replace("B,Wed", "B,Tue").as_bytes()).await;
     assert_eq!(penalties().await, [None, None]);
+    bench.finish().await;
+}
+
+async fn a_late_day_is_one_of_the_calendar(database: Database) {
+    // Sunday, 25 October 2026, 23:30 in Berlin: the clocks went back in the night before.
+    let clock = Clock::fixed(1_792_967_400_000);
+    let bench = Bench::with(database, config(), Arc::new(Points), clock.clone()).await;
+    assert_eq!(form(&bench, "/teacher/course", "zone=Europe%2FBerlin&language=en").await.status, StatusCode::SEE_OTHER);
+    let due = |day: &str, rule: &str| {
+        format!("closes={day}T23%3A59&late_until=2027-06-01T08%3A00&{rule}&late_floor=0&hints=full&audience=open")
+    };
+    let by_days = "late_percent=10&late_span=day";
+    rules(&bench, &due("2026-10-24", by_days)).await;
+    // 24 hours and 31 minutes after Saturday, 23:59, on the clock a day but for 29 minutes.
+    let sunday = hand_in(&bench, "S1", 100).await;
+    assert_eq!(late(&sunday), (json!(24 * 60 + 31), json!(10.0), json!(90)));
+    clock.advance(HOUR);
+    assert_eq!(late(&hand_in(&bench, "S1", 100).await).1, json!(20.0));
+    // An hour is an hour.
+    rules(&bench, &due("2026-10-24", "late_percent=1&late_span=hour")).await;
+    let report = bench.get(&format!("/api/v1/submissions/{}", sunday.id())).await.json();
+    assert_eq!(report["report"]["lateness"]["penalty"], 25.0, "{report}");
+    // Monday, 29 March 2027, 00:30: the clocks went forward, 23 hours and 31 minutes after Saturday, 23:59.
+    clock.advance(DAY * 154 - HOUR);
+    rules(&bench, &due("2027-03-27", by_days)).await;
+    assert_eq!(late(&hand_in(&bench, "S1", 100).await), (json!(23 * 60 + 31), json!(20.0), json!(80)));
     bench.finish().await;
 }

@@ -94,6 +94,8 @@ impl Service {
         other: Option<(&str, &Self)>,
     ) -> StoreResult<Self> {
         let key = store.setting_or("csrf_key", &new_token()).await?;
+        // An earlier version kept nothing of the zone, and a tz database may be newer than what is kept.
+        store.keep_zone(store.course().await?.zone()).await?;
         let plan = CoursePlan::read(&store).await?;
         let (root, first_course) = other.map(|(id, first)| (courses::root_of_id(id), first)).unzip();
         let first = first_course.map(|first| first.store.clone());
