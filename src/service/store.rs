@@ -52,7 +52,7 @@ pub use keys::{KeyResult, StoredKey};
 pub use late::{LateRules, LateSpan};
 pub use lti::{Deployment, Launch, Link, Platform, PlatformPerson};
 pub use lti_contexts::PlatformCourse;
-pub use lti_scores::DueScore;
+pub use lti_scores::{DueScore, Stuck};
 pub use open::Location;
 pub use overrides::{LineAgain, OverriddenAgain, Override};
 pub use owners::{Owner, Proof};

@@ -36,7 +36,7 @@ pub(super) struct PlatformJson {
     deployments: Vec<DeploymentJson>,
     /// Its courses from which somebody came.
     courses: Vec<PlatformCourseJson>,
-    /// How many scores have not arrived, and are sent again by themselves.
+    /// How many scores have not arrived, and are sent again by themselves; of all courses where an administrator asks the first one.
     waiting_scores: i64,
     /// What it answered to one of these.
     problem: Option<String>,
@@ -152,8 +152,8 @@ fn json(known: KnownPlatform) -> PlatformJson {
 }
 
 /// A platform as it stands.
-async fn standing(service: &Service, id: &str) -> Result<Json<PlatformJson>, Problem> {
-    let known = known::platforms(service).await?.into_iter().find(|known| known.platform.id == id);
+async fn standing(service: &Service, teacher: &Teacher, id: &str) -> Result<Json<PlatformJson>, Problem> {
+    let known = known::platforms(service, teacher).await?.into_iter().find(|known| known.platform.id == id);
     Ok(Json(json(known.ok_or_else(Problem::not_found)?)))
 }
 
@@ -170,7 +170,7 @@ async fn own(service: &Service, id: &str) -> Result<Platform, Problem> {
 )]
 pub(super) async fn list(teacher: Teacher, Shared(service): Shared<Service>) -> Result<Response, Problem> {
     check_reader(&teacher, StaffRole::Lecturer)?;
-    let platforms = known::platforms(&service).await?.into_iter().map(json).collect();
+    let platforms = known::platforms(&service, &teacher).await?.into_iter().map(json).collect();
     Ok(unkept(PlatformsJson { platforms }))
 }
 
@@ -202,7 +202,7 @@ pub(super) async fn add(
     };
     let platform = registration::keep(&service, platform, Some(wish.deployment.trim())).await?;
     let detail = Detail::of(format!("add {} {}", platform.issuer, wish.deployment));
-    Ok(detail.on((StatusCode::CREATED, standing(&service, &platform.id).await?).into_response()))
+    Ok(detail.on((StatusCode::CREATED, standing(&service, &caller.0, &platform.id).await?).into_response()))
 }
 
 /// Make a registration link
@@ -243,7 +243,7 @@ pub(super) async fn change(
         service.store.note_deployment(&platform.id, deployment, true).await?;
         said += &format!(" approve {deployment}");
     }
-    Ok(Detail::of(said).on(standing(&service, &id).await?.into_response()))
+    Ok(Detail::of(said).on(standing(&service, &caller.0, &id).await?.into_response()))
 }
 
 /// Connect a platform's course with a course here
@@ -267,7 +267,7 @@ pub(super) async fn connect(
     contexts::connect(&service, &platform, &wish.context, wish.course.as_deref()).await?;
     let course = wish.course.as_deref().unwrap_or("–");
     let detail = Detail::of(format!("connect {} {} {course}", platform.issuer, wish.context));
-    Ok(detail.on(standing(&service, &id).await?.into_response()))
+    Ok(detail.on(standing(&service, &caller.0, &id).await?.into_response()))
 }
 
 /// Fetch the roster of a platform's course

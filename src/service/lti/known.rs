@@ -1,7 +1,8 @@
 //! The platforms that a course knows, with what is known of each.
 
 use super::super::Service;
-use super::super::store::{Deployment, Platform, PlatformCourse, Result as StoreResult};
+use super::super::identity::Teacher;
+use super::super::store::{Deployment, Platform, PlatformCourse, Result as StoreResult, StaffRole, Stuck};
 use super::contexts::is_elsewheres;
 
 /// A platform.
@@ -15,25 +16,40 @@ pub struct KnownPlatform {
     pub deployments: Vec<Deployment>,
     /// Its courses from which somebody came.
     pub courses: Vec<PlatformCourse>,
-    /// How many scores did not arrive, and why.
+    /// How many scores did not arrive, and why. With the first course an administrator sees those of all courses.
     pub stuck: Option<(i64, String)>,
 }
 
-/// All of them, the oldest first.
-pub async fn platforms(service: &Service) -> StoreResult<Vec<KnownPlatform>> {
+/// All of them, the oldest first, as somebody who teaches sees them.
+pub async fn platforms(service: &Service, teacher: &Teacher) -> StoreResult<Vec<KnownPlatform>> {
     let (deployments, courses) = (service.store.deployments().await?, service.store.platform_courses().await?);
-    let stuck = service.store.stuck_scores().await?;
+    let stuck = stuck(service, teacher).await?;
     let mut known = Vec::new();
     for platform in service.store.platforms().await? {
         let of_it = |id: &str| id == platform.id;
-        let stuck = stuck.iter().find(|(id, ..)| of_it(id));
+        let (waiting, why): (Vec<i64>, Vec<&Option<String>>) =
+            stuck.iter().filter(|(id, ..)| of_it(id)).map(|(_, count, why)| (*count, why)).unzip();
+        let why = why.into_iter().flatten().next().cloned().unwrap_or_default();
         known.push(KnownPlatform {
             is_elsewheres: is_elsewheres(service, &platform.id).await?,
             deployments: deployments.iter().filter(|one| of_it(&one.platform_id)).cloned().collect(),
             courses: courses.iter().filter(|one| of_it(&one.platform_id)).cloned().collect(),
-            stuck: stuck.map(|(_, count, why)| (*count, why.clone().unwrap_or_default())),
+            stuck: (!waiting.is_empty()).then(|| (waiting.iter().sum(), why)),
             platform,
         });
     }
     Ok(known)
+}
+
+/// The scores that platforms did not take, of each course by itself. A platform is registered once and serves many courses; whoever
+/// does not teach in one of these learns nothing of it.
+async fn stuck(service: &Service, teacher: &Teacher) -> StoreResult<Vec<Stuck>> {
+    if teacher.role() != StaffRole::Administrator {
+        return service.store.stuck_scores().await;
+    }
+    let mut all = Vec::new();
+    for course in service.everywhere() {
+        all.extend(course.store.stuck_scores().await?);
+    }
+    Ok(all)
 }

@@ -63,7 +63,8 @@ async fn nobody_comes_in_from_a_course_that_nobody_connected(database: Database)
 }
 
 async fn a_platforms_course_leads_to_its_course_here(database: Database) {
-    let (bench, platform) = bench(database, Clock::system()).await;
+    let now = i64::try_from(jsonwebtoken::get_current_timestamp()).expect("a time") * 1000;
+    let (bench, platform) = bench(database, Clock::fixed(now)).await;
     let course = crate::courses::made(&bench).await;
     registered(&bench, &platform).await;
     // With several courses somebody has to say which one it is.
@@ -96,6 +97,15 @@ async fn a_platforms_course_leads_to_its_course_here(database: Database) {
     let request = request.header(header::CONTENT_TYPE, "text/plain").header("sec-fetch-site", "same-origin");
     let handed_in = bench.send(request.body(Body::from(right())).expect("a request")).await;
     assert_eq!(handed_in.status, StatusCode::CREATED, "{handed_in:?}");
+    // An administrator sees what waits where the platform is registered, whatever course it is of.
+    platform.seen().failing = Some(StatusCode::SERVICE_UNAVAILABLE);
+    send_due(&course).await;
+    for page in ["/teacher/platforms", "/c/cg-2027/teacher/platforms"] {
+        let page = get(&bench, page).await;
+        assert!(page.text().contains("1 scores have not arrived") && page.text().contains("503"), "{}", page.text());
+    }
+    platform.seen().failing = None;
+    course.clock.advance(std::time::Duration::from_secs(6));
     send_due(&course).await;
     let scores = platform.seen().scores.clone();
     assert_eq!((scores.len(), &scores[0]["scoreGiven"]), (1, &json!(100.0)));

@@ -106,7 +106,7 @@ async fn view(
         }
         PlatformLine { known, rosters }
     };
-    let platforms = known::platforms(service).await?.into_iter().map(line).collect();
+    let platforms = known::platforms(service, teacher).await?.into_iter().map(line).collect();
     let here = here(service, &frame).await?;
     shown(
         PlatformsPage {
