@@ -46,16 +46,22 @@ pub(super) async fn added(service: &Service, new: &StaffMember) -> Result<Option
     Ok(Some(StaffMember { role: new.role, ..account }))
 }
 
-/// Somebody of whom a learning platform says that they teach in this course: their account, which they get by that; none where it
-/// is closed.
+/// Somebody of whom a learning platform says that they teach in this course: their account, which they get by that, with the role that
+/// the platform says now, unless a person gave them theirs; none where it is closed.
 pub(in crate::service) async fn vouched_for(
     service: &Service,
     new: &StaffMember,
 ) -> Result<Option<StaffMember>, Problem> {
     if let Some(member) = added(service, new).await? {
+        service.store.vouch(&member.id).await?;
         return Ok(Some(member));
     }
-    match service.accounts().account(&new.login).await?.filter(|account| account.is_active) {
+    let Some(account) = service.accounts().account(&new.login).await?.filter(|account| account.is_active) else {
+        return Ok(None);
+    };
+    service.store.follow_platform(&account.id, Some(new.role)).await?;
+    // In the first course the account itself has the role.
+    match service.accounts().staff_member(&account.id).await? {
         Some(account) => in_course(service, account).await,
         None => Ok(None),
     }

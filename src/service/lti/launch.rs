@@ -5,7 +5,7 @@ use super::super::pages::{PageFrame, launch_lost, shown_choice};
 use super::super::store::{Link, Platform, Proof};
 use super::super::{Service, State};
 use super::claims::{Claims, DEEP_LINKING, RESOURCE_LINK};
-use super::people::{Described, staff, student};
+use super::people::{Described, staff, student, teaches_no_more};
 use super::{contexts, deep_linking, refused};
 use crate::service::errors::Problem;
 use axum::Form;
@@ -129,7 +129,9 @@ async fn open(
             refused("The launch is of no link (resource_link).", "起動元のリンク (resource_link) が示されていません。")
         })?;
     let who = described(claims)?;
+    // A learner may be somebody who teaches and looks at the course as a student does: platforms do not tell.
     if claims.staff_role().is_none() && !claims.is_learner() {
+        teaches_no_more(service, platform, &who.subject).await?;
         return Err(looks_on());
     }
     let state = homework(service, platform, claims, &link).await?;

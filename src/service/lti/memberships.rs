@@ -6,7 +6,7 @@ use super::super::identity::normal_number;
 use super::super::roster;
 use super::super::store::{Link, Platform, RosterLine, StudentRecord};
 use super::claims::id;
-use super::people::{Described, student};
+use super::people::{Described, student, teaches_no_more};
 use super::platform::{Connections, Failure, parsed};
 use super::{refused, roles};
 use reqwest::Method;
@@ -42,8 +42,16 @@ struct PlatformMember {
 }
 
 impl PlatformMember {
+    fn is_active(&self) -> bool {
+        self.status.as_deref().is_none_or(|status| status == "Active")
+    }
+
     fn is_student(&self) -> bool {
-        roles::is_learner(&self.roles) && self.status.as_deref().is_none_or(|status| status == "Active")
+        roles::is_learner(&self.roles) && self.is_active()
+    }
+
+    fn teaches(&self) -> bool {
+        roles::staff_role(&self.roles).is_some() && self.is_active()
     }
 
     fn described(self) -> Described {
@@ -58,7 +66,7 @@ impl PlatformMember {
 }
 
 /// Takes everybody who is a student in a platform's course onto the roster; who stands there already stays. How many they
-/// are.
+/// are. Whom the list has and who teaches there no more loses the role that they have by the platform.
 pub async fn import(service: &Service, platform: &Platform, link: &Link) -> Result<usize, Problem> {
     let failed = |failure: Failure| {
         tracing::warn!(failure, "the roster of a platform");
@@ -69,6 +77,9 @@ pub async fn import(service: &Service, platform: &Platform, link: &Link) -> Resu
     };
     let address = link.memberships.clone().ok_or_else(|| failed("the link has none".to_owned()))?;
     let members = fetched(service, platform, address).await.map_err(failed)?;
+    for member in members.iter().filter(|member| !member.teaches()) {
+        teaches_no_more(service, platform, &member.user_id).await?;
+    }
     let students: Vec<Described> =
         members.into_iter().filter(PlatformMember::is_student).map(PlatformMember::described).collect();
     if students.is_empty() {

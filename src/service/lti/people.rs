@@ -97,6 +97,15 @@ pub(super) async fn staff(
     Ok(member)
 }
 
+/// Takes the role here from somebody who teaches in the platform's course no more, where they have it by the platform.
+pub(super) async fn teaches_no_more(service: &Service, platform: &Platform, subject: &str) -> Result<(), Problem> {
+    let known = service.store.platform_person(&platform.id, subject).await?;
+    match known.and_then(|person| person.staff_id) {
+        Some(id) => Ok(service.store.follow_platform(&id, None).await?),
+        None => Ok(()),
+    }
+}
+
 fn closed() -> Problem {
     super::refused(
         "Your account here is closed. Ask an administrator.",

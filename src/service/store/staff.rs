@@ -105,8 +105,29 @@ impl Store {
 
     /// Lets somebody teach in this course whose account it keeps.
     pub async fn let_teach(&self, id: &str, role: StaffRole) -> Result<()> {
-        const SQL: &str = "UPDATE staff SET role = $2, is_active = 1, is_member = 1 WHERE id = $1";
+        const SQL: &str = "UPDATE staff SET role = $2, is_active = 1, is_member = 1, is_vouched = 0 WHERE id = $1";
         on!(&self.write, db => { sqlx::query(SQL).bind(id).bind(word(&role)).execute(db).await?; });
+        Ok(())
+    }
+
+    /// Says that somebody has their role by the word of a learning platform.
+    pub async fn vouch(&self, id: &str) -> Result<()> {
+        const SQL: &str = "UPDATE staff SET is_vouched = 1 WHERE id = $1";
+        on!(&self.write, db => { sqlx::query(SQL).bind(id).execute(db).await?; });
+        Ok(())
+    }
+
+    /// Gives somebody the role of which a learning platform says now that it is theirs, or none any more: where a platform gave the one
+    /// that they have. Who has none teaches no more in this course, and does again as soon as the platform says so.
+    pub async fn follow_platform(&self, id: &str, role: Option<StaffRole>) -> Result<()> {
+        const ROLE: &str = "UPDATE staff SET role = $2 WHERE id = $1 AND is_vouched = 1 AND role <> 'administrator'";
+        // Who was let in anew could log in: whose login was closed stays where they are.
+        const NONE: &str = "UPDATE staff SET is_member = 0 WHERE id = $1 AND is_vouched = 1 AND role <> 'administrator' \
+                            AND is_active = 1";
+        on!(&self.write, db => match role {
+            Some(role) => { sqlx::query(ROLE).bind(id).bind(word(&role)).execute(db).await?; }
+            None => { sqlx::query(NONE).bind(id).execute(db).await?; }
+        });
         Ok(())
     }
 
@@ -175,9 +196,11 @@ impl Store {
         Ok(())
     }
 
-    /// Sets what somebody may do, and whether they may log in; who may not has no session, no link and no token any more.
+    /// Sets what somebody may do, and whether they may log in; who may not has no session, no link and no token any more. Another role
+    /// than they had is that of who sets it, and no more a platform's.
     pub async fn set_staff(&self, id: &str, role: StaffRole, is_active: bool) -> Result<()> {
-        const SET: &str = "UPDATE staff SET role = $2, is_active = $3 WHERE id = $1";
+        const SET: &str = "UPDATE staff SET is_vouched = CASE WHEN role = $2 THEN is_vouched ELSE 0 END, role = $2, \
+                           is_active = $3 WHERE id = $1";
         const SESSIONS: &str = "DELETE FROM teacher_sessions WHERE staff_id = $1";
         const LINK: &str = "UPDATE staff SET invitation_hash = NULL, invited_until = NULL WHERE id = $1";
         const TOKENS: &str = "DELETE FROM access_tokens WHERE staff_id = $1";

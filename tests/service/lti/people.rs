@@ -1,14 +1,18 @@
 //! Who somebody of a platform is here, as the platform and the course change.
 
-use super::launch::{answer, begin, bench, cookie, hand_in, launch, registered};
+use super::launch::{answer, begin, bench, cookie, hand_in, launch, registered, with_cookie};
 use crate::cluster::Database;
-use crate::roster::file;
+use crate::roster::{file, form};
 use crate::{on_both, right};
 use axum::http::StatusCode;
 use ggrade::service::clock::Clock;
 use serde_json::{Value, json};
 
-on_both!(only_who_learns_is_a_student, whoever_the_platform_has_stands_on_a_roster_that_came_later,);
+on_both!(
+    only_who_learns_is_a_student,
+    whoever_the_platform_has_stands_on_a_roster_that_came_later,
+    a_role_is_the_one_that_the_platform_says_unless_a_person_gave_it,
+);
 
 async fn only_who_learns_is_a_student(database: Database) {
     let (bench, platform) = bench(database, Clock::system()).await;
@@ -59,5 +63,41 @@ async fn whoever_the_platform_has_stands_on_a_roster_that_came_later(database: D
     let roster = bench.state.store.roster().await.expect("a roster");
     let numbers: Vec<&str> = roster.iter().map(|student| student.number.as_str()).collect();
     assert_eq!(numbers, ["S1", "S2", "S9"]);
+    bench.finish().await;
+}
+
+async fn a_role_is_the_one_that_the_platform_says_unless_a_person_gave_it(database: Database) {
+    let (bench, platform) = bench(database, Clock::system()).await;
+    registered(&bench, &platform).await;
+    // What whoever launches with this role gets of the settings, which a lecturer sees and an assistant does not.
+    let settings = async |subject: &str, role: &str| {
+        let session = cookie(&launch(&bench, &platform, subject, role).await, "ggrade_teacher");
+        with_cookie(&bench, "/teacher/settings", &session).await.status
+    };
+    for (role, status) in [("Instructor", 200), ("TeachingAssistant", 403), ("Instructor", 200)] {
+        assert_eq!(settings("s1", role).await.as_u16(), status, "{role}");
+    }
+    let session = cookie(&launch(&bench, &platform, "ta", "TeachingAssistant").await, "ggrade_teacher");
+    let staff = bench.state.store.staff().await.expect("staff");
+    let id = &staff.iter().find(|member| member.name == "Name of ta").expect("an account").id;
+    let given = form(&bench, &format!("/teacher/people/{id}"), "change=lecturer").await;
+    assert_eq!(given.status, StatusCode::SEE_OTHER);
+    assert_eq!(settings("ta", "TeachingAssistant").await, StatusCode::OK, "an administrator gave it");
+    // Who comes without a role teaches no more by the platform's word; a person's word stays.
+    for subject in ["s1", "ta"] {
+        assert_eq!(launch(&bench, &platform, subject, "Mentor").await.status, StatusCode::FORBIDDEN);
+    }
+    let members = async || {
+        let staff = bench.state.store.staff().await.expect("staff");
+        staff.into_iter().map(|member| member.name).collect::<Vec<_>>()
+    };
+    assert_eq!(members().await, ["Name of ta"]);
+    assert_eq!(with_cookie(&bench, "/teacher/settings", &session).await.status, StatusCode::OK);
+    // Nor does whom the platform's list has as a student.
+    assert_eq!(settings("s1", "Instructor").await, StatusCode::OK);
+    let platform_id = bench.state.store.platforms().await.expect("platforms")[0].id.clone();
+    let fetched = form(&bench, "/teacher/platforms", &format!("wish=roster&platform={platform_id}&link=3")).await;
+    assert!(fetched.text().contains("2 students are on the roster now."), "{}", fetched.text());
+    assert_eq!(members().await, ["Name of ta"]);
     bench.finish().await;
 }
