@@ -74,6 +74,7 @@ pub(super) async fn read<C: DeserializeOwned>(
     let key = DecodingKey::from_jwk(&key).map_err(|error| untrusted(&error))?;
     let mut rules = Validation::new(header.alg);
     rules.leeway = LEEWAY;
+    rules.validate_nbf = true;
     rules.set_audience(&[of.client_id]);
     rules.set_issuer(&[of.issuer]);
     rules.set_required_spec_claims(&["exp", "aud", "iss"]);
@@ -103,6 +104,7 @@ impl CommonClaims {
 fn untrusted(error: &jsonwebtoken::errors::Error) -> Text {
     let (en, ja) = match error.kind() {
         ErrorKind::ExpiredSignature => ("it is too old (exp)", "有効期限が切れています"),
+        ErrorKind::ImmatureSignature => ("it is not valid yet (nbf)", "まだ有効ではありません (nbf)"),
         ErrorKind::InvalidAudience => ("it is for another client (aud)", "別の利用者宛てです (aud)"),
         ErrorKind::InvalidIssuer => ("it is of another issuer (iss)", "別の発行元のものです (iss)"),
         ErrorKind::InvalidSignature => ("its signature is wrong", "署名が正しくありません"),

@@ -19,7 +19,7 @@ async fn every_forged_launch_is_refused(database: Database) {
     let deployment = "https://purl.imsglobal.org/spec/lti/claim/deployment_id";
     let version = "https://purl.imsglobal.org/spec/lti/claim/version";
     let kind = "https://purl.imsglobal.org/spec/lti/claim/message_type";
-    let changes: [(&str, Value, &str); 12] = [
+    let changes: [(&str, Value, &str); 13] = [
         ("iss", json!("https://evil.example"), "another issuer"),
         ("aud", json!("another-client"), "another client"),
         ("aud", json!([CLIENT, "another-client"]), "another client"),
@@ -27,6 +27,7 @@ async fn every_forged_launch_is_refused(database: Database) {
         ("nonce", json!("another nonce"), "not the answer to this launch"),
         ("nonce", Value::Null, "not the answer to this launch"),
         ("exp", json!(now - 120), "too old"),
+        ("nbf", json!(now + 3600), "not valid yet"),
         ("iat", json!(now + 3600), "of the future"),
         (version, json!("1.1"), "not of LTI 1.3.0"),
         (kind, json!("LtiSubmissionReviewRequest"), "kind of LTI message"),
