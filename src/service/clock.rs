@@ -1,6 +1,6 @@
 //! What time it is: the machine's, or one that a test sets.
 
-use jiff::tz::TimeZone;
+use jiff::tz::{Offset, TimeZone};
 use jiff::{Span, Timestamp};
 use std::sync::atomic::{AtomicI64, Ordering};
 use std::sync::{Arc, LazyLock};
@@ -78,6 +78,11 @@ impl Clock {
 /// A moment as RFC 3339 writes it, in UTC.
 pub fn rfc3339(at: Millis) -> String {
     jiff::Timestamp::from_millisecond(at).map(|time| time.to_string()).unwrap_or_default()
+}
+
+/// Whether a moment can be written so: in years from 0 on. Later ones than those of four digits there are none of.
+pub fn has_rfc3339(at: Timestamp) -> bool {
+    Offset::UTC.to_datetime(at).year() >= 0
 }
 
 /// A span of time in milliseconds.

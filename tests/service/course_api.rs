@@ -176,6 +176,7 @@ async fn what_makes_no_sense_changes_nothing(database: Database) {
     let before = read(&bench, settings).await;
     for wrong in [
         json!({ "due_at": "2030-01-01T00:00:00Z", "opens_at": "2031-01-01T00:00:00Z" }),
+        json!({ "due_at": "-000001-01-01T00:00:00Z" }),
         json!({ "attempts": 0 }),
         json!({ "attempts": -1 }),
         json!({ "late_percent": 101 }),

@@ -3,6 +3,7 @@
 
 use super::body::other;
 use crate::language::Text;
+use crate::service::clock::has_rfc3339;
 use crate::service::errors::Problem;
 use axum::Json;
 use axum::extract::rejection::JsonRejection;
@@ -146,7 +147,7 @@ impl Kind<'_> {
             },
             Self::Number => value.is_number(),
             Self::Word(words) => value.as_str().is_some_and(|text| words.contains(&text)),
-            Self::Time => value.as_str().is_some_and(|text| text.parse::<jiff::Timestamp>().is_ok()),
+            Self::Time => value.as_str().is_some_and(|text| text.parse().is_ok_and(has_rfc3339)),
             Self::Text => value.is_string(),
             Self::List => value.is_array(),
             Self::Object => value.is_object(),

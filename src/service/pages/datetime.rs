@@ -1,7 +1,7 @@
 //! Moments as people read them, in the time zone of the course.
 
 use crate::language::{Language, Text};
-use crate::service::clock::{Millis, local_minute};
+use crate::service::clock::{Millis, has_rfc3339, local_minute};
 use jiff::civil::DateTime;
 use jiff::tz::TimeZone;
 use jiff::{Timestamp, Zoned};
@@ -62,7 +62,7 @@ pub(super) fn parse(field: &str, zone: &TimeZone, shown: Option<Millis>) -> Resu
         return Ok(shown);
     }
     let moment = |local: DateTime| local.to_zoned(zone.clone()).map(|zoned| zoned.timestamp());
-    let at = field.parse::<DateTime>().and_then(moment).map_err(|_| no_date())?;
+    let at = field.parse::<DateTime>().and_then(moment).ok().filter(|at| has_rfc3339(*at)).ok_or_else(no_date)?;
     Ok(Some(at.as_millisecond()))
 }
 
@@ -104,7 +104,9 @@ mod tests {
             assert_eq!(parse(&local_minute(AT, &zone), &zone, None), Ok(Some(AT)));
             assert_eq!(parse(&local_minute(AT, &zone), &zone, Some(AT + 59_000)), Ok(Some(AT + 59_000)));
             assert_eq!(parse(" ", &zone, Some(AT)), Ok(None));
-            assert!(parse("tomorrow", &zone, None).is_err());
+            for wrong in ["tomorrow", "-000001-01-01T00:00"] {
+                assert!(parse(wrong, &zone, None).is_err(), "{wrong}");
+            }
         }
         assert_eq!(local_minute(AT, &zone("Asia/Tokyo")), "2026-11-21T22:05");
         // The end of summer time: 02:30 comes at 00:30 UTC and again at 01:30. Typed anew it is the first.
