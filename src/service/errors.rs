@@ -120,10 +120,10 @@ impl Problem {
         Self::new(
             StatusCode::FORBIDDEN,
             "other-class",
-            "You are logged in for another homework's class. Log out, and log in with the password of the service or the \
-             token of this homework.",
-            "別の課題の教員としてログインしています。一度ログアウトし、サービスのパスワードまたはこの課題のトークンで\
-             ログインしてください。",
+            "You are logged in, or send a token, for another homework's class. Log out, and log in with the password of the \
+             service or the token of this homework; a program sends a token that is good for it.",
+            "別の課題の教員としてログインしているか、別の課題のトークンを使っています。一度ログアウトし、サービスのパスワードまたは\
+             この課題のトークンでログインしてください。プログラムからは、この課題で使えるトークンを送ってください。",
         )
     }
 

@@ -179,7 +179,8 @@ async fn identity(
     if let Some(course) = &about.course {
         return with_course(state, number, course, about.code.as_deref().unwrap_or_default()).await;
     }
-    let teacher = teacher.filter(|teacher| teacher.may_see(&state.assignment.id)).ok_or_else(not_their_name)?;
+    let teacher = teacher.ok_or_else(not_their_name)?;
+    teacher.check(&state.assignment.id)?;
     teacher.check_role(StaffRole::Lecturer)?;
     let number = normal_number(number).ok_or_else(|| {
         Problem::unprocessable("student is no student number.", "student が学籍番号の形式ではありません。")

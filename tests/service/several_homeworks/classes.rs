@@ -126,6 +126,7 @@ async fn the_teacher_of_one_homework_sees_no_other_class(database: Database) {
         ("POST", "/a/waves/teacher/course", form),
         ("POST", "/a/waves/teacher/settings/link", form),
         ("POST", "/api/v1/batches?assignment=ggsample06", "application/zip"),
+        ("POST", "/api/v1/submissions?assignment=ggsample06&student=S1", "text/plain"),
         ("DELETE", &format!("/api/v1/batches/{id}"), ""),
         ("DELETE", &format!("/api/v1/submissions/{lambert}"), ""),
     ] {
