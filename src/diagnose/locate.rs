@@ -3,7 +3,7 @@
 //! The interpreter of `reference` runs the text at some of the probes. A search for names in the text would not see that a
 //! statement further down changes a value, or that a function or a variable of another name computes it.
 
-use super::columns::{ScalarColumns, is_colour, is_same, of_places};
+use super::columns::{ScalarColumns, is_colour, is_constant, is_same, of_places};
 use super::inside::{self, Finding, Flaw};
 use super::trials::{FUEL_OF_TRACE, StageChanges, Trials, chosen, is_drawn, place};
 use super::{Evidence, advice::Beyond};
@@ -109,9 +109,11 @@ impl<'a> TracedProbes<'a> {
     pub fn names(&self, found: &[FoundMistake]) -> Vec<Option<&'a str>> {
         let right = self.definitions(&self.assignment.equation.right());
         let wrong = self.assignment.variant(found).map(|variant| self.definitions(&variant)).unwrap_or_default();
+        // What is the same everywhere, or no number, equals much by chance.
+        let is_telling = |own: &ScalarColumns| !is_constant(own) && own.iter().flatten().all(|value| value.is_finite());
         let name = |(at, right): (usize, &ScalarColumns)| {
-            self.name_of(right)
-                .or_else(|| wrong.get(at).filter(|wrong| *wrong != right).and_then(|own| self.name_of(own)))
+            let is_other = |wrong: &&ScalarColumns| *wrong != right && is_telling(wrong);
+            self.name_of(right).or_else(|| wrong.get(at).filter(is_other).and_then(|own| self.name_of(own)))
         };
         right.iter().enumerate().map(name).collect()
     }
