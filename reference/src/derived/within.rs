@@ -35,8 +35,7 @@ impl Derived {
     /// those of all others. Where there is none, the only two lines without whose features together that is so. None of these, or of
     /// several that stand beside each other, is an empty list.
     pub(super) fn lines_of(&self, found: &FoundMistake, of: Shown) -> Vec<usize> {
-        let is_of_one_line = || definition(&found.id).is_some_and(|name| self.assignment.is_of_one_line(name));
-        if !self.assignment.is_told_by_features() || of == Shown::Colour && is_of_one_line() {
+        if !self.assignment.is_told_by_features() {
             return Vec::new();
         }
         let key = (found.id.clone(), found.form, of);
@@ -45,6 +44,10 @@ impl Derived {
     }
 
     fn around(&self, found: &FoundMistake, of: Shown) -> Option<Vec<usize>> {
+        let is_of_one_line = || definition(&found.id).is_some_and(|name| self.assignment.is_of_one_line(name));
+        if of == Shown::Colour && is_of_one_line() {
+            return None;
+        }
         let (stage, mark) = self.slip(found)?;
         // What is counted by in the head of a loop is a matter of its turns.
         let counts = |line: &usize| self.assignment.loop_words(*line).any(|word| Some(&word) == mark.name.as_ref());
