@@ -159,9 +159,7 @@ fn computed_of(evidence: &Evidence<'_>, wrong: &[&str]) -> Vec<String> {
             return others.map(|(_, line)| line.id.clone()).collect();
         }
     }
-    let is_left = |(number, line): (usize, &RubricLine)| {
-        is_value(number) && wrong.contains(&line.id.as_str()) && !lines.contains(&line.id)
-    };
+    let is_left = |(number, line): (usize, &RubricLine)| is_value(number) && is_wrong(line);
     if rubric.iter().enumerate().any(is_left) {
         let ways = rubric.iter().enumerate().filter(|(number, _)| !is_value(*number));
         lines.extend(ways.map(|(_, line)| line.id.clone()));
