@@ -4,6 +4,7 @@ use crate::mistake::FoundMistake;
 use std::path::Path;
 
 mod about;
+mod costs;
 mod meshes;
 mod passes;
 mod refusals;

@@ -3,9 +3,10 @@
 use super::programs::FIRST;
 use super::{Derived, definition, read};
 use crate::accepted::{AcceptedAnswer, Computed};
+use crate::assignment::{HandedIn, RubricLine};
 use crate::feature::Feature;
 use crate::fit::{TOLERANCE, agrees};
-use crate::interpreter::{Program, SlipMark, Stage, slips_marked, slips_written};
+use crate::interpreter::{Program, SlipMark, Stage, outline, slips_marked, slips_written};
 use crate::mistake::FoundMistake;
 use crate::pipeline::Pipeline;
 use crate::probes::ProbeSet;
@@ -27,6 +28,18 @@ enum Slipped {
     Unknown,
 }
 
+/// What is left of a slip without a feature.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Left {
+    /// It stands in the text that is gone.
+    Gone,
+    /// The text that is gone stands in what it changes.
+    Within,
+    /// It changes nothing that is seen.
+    NoDifference,
+    Something,
+}
+
 /// A line of the rubric, and the program that lacks its feature.
 type FeatureProgram<'a> = (usize, &'a AcceptedAnswer);
 
@@ -44,10 +57,10 @@ impl Derived {
     }
 
     fn around(&self, found: &FoundMistake, of: Shown) -> Option<Vec<usize>> {
-        let is_of_one_line = || definition(&found.id).is_some_and(|name| self.assignment.is_of_one_line(name));
-        if of == Shown::Colour && is_of_one_line() {
-            return None;
-        }
+        // The only line that is about the variable, which is about all of it.
+        let name = definition(&found.id).filter(|name| of == Shown::Colour && self.assignment.is_of_one_line(name));
+        let is_about = |line: &RubricLine, name: &str| line.variables.iter().any(|own| own == name);
+        let owner = name.and_then(|name| self.assignment.rubric.iter().position(|line| is_about(line, name)));
         let (stage, mark) = self.slip(found)?;
         // What is counted by in the head of a loop is a matter of its turns.
         let counts = |line: &usize| self.assignment.loop_words(*line).any(|word| Some(&word) == mark.name.as_ref());
@@ -66,30 +79,57 @@ impl Derived {
         if is_same(&wrong, &shown, of) {
             return None;
         }
-        let is_nothing_left = |texts: &[String]| match self.slipped(texts, (stage, &mark), &probes) {
-            Slipped::Gone => true,
-            Slipped::Shown(wrong) => {
-                self.shown_by(texts, None, &probes).is_some_and(|without| is_same(&wrong, &without, of))
+        let left = |texts: &[String], feature: &AcceptedAnswer| match self.slipped(texts, (stage, &mark), &probes) {
+            Slipped::Gone if stands_in(&mark.texts.0, feature) => Left::Gone,
+            Slipped::Gone => Left::Within,
+            Slipped::Shown(wrong)
+                if self.shown_by(texts, None, &probes).is_some_and(|own| is_same(&wrong, &own, of)) =>
+            {
+                Left::NoDifference
             }
-            Slipped::Unknown => false,
+            Slipped::Shown(_) | Slipped::Unknown => Left::Something,
         };
-        let features: Vec<FeatureProgram<'_>> = self.feature_programs(of).collect();
-        let around: Vec<_> = features.iter().copied().filter(|(_, own)| is_nothing_left(&own.texts)).collect();
+        let is_seen = |own: &AcceptedAnswer| !is_same(&self.assignment.computed_by(own, &probes), &shown, of);
+        let features: Vec<FeatureProgram<'_>> = self.feature_programs(of).filter(|(_, own)| is_seen(own)).collect();
+        let judged: Vec<(FeatureProgram<'_>, Left)> =
+            features.iter().map(|own| (*own, left(&own.1.texts, own.1))).collect();
+        let left_with = |which: Left| -> Vec<FeatureProgram<'_>> {
+            judged.iter().filter(|(_, left)| *left == which).map(|(own, _)| *own).collect()
+        };
+        // What stands in the text of a feature is of that, whatever else happens to hide it.
+        let mut around = left_with(Left::Gone);
+        if around.is_empty() {
+            around = left_with(Left::NoDifference);
+        }
+        // Another line may only be within that.
+        if owner.is_some_and(|owner| !around.iter().any(|(line, _)| *line == owner)) {
+            return None;
+        }
         if let Some(line) = self.innermost(&around, of, &probes) {
             return Some(vec![line]);
         }
-        let pairs = features.iter().enumerate().flat_map(|(at, a)| features[..at].iter().map(move |b| (b, a)));
-        let mut pairs = pairs.filter(|((_, a), (_, b))| {
-            around.is_empty() && without_both(a, b).is_some_and(|texts| is_nothing_left(&texts))
-        });
-        let ((a, _), (b, _)) = pairs.next()?;
+        if !around.is_empty() {
+            return None;
+        }
+        // What lines are about is theirs, whatever of it is left without the features of others.
+        let about = if of == Shown::Colour { self.lines_about(found) } else { Vec::new() };
+        let is_theirs = |line: usize| about.is_empty() || about.contains(&self.assignment.rubric[line].id.as_str());
+        let pairs = judged.iter().enumerate().flat_map(|(at, a)| judged[..at].iter().map(move |b| (b, a)));
+        let is_nothing_left = |(a, left_of_a): &(FeatureProgram<'_>, Left),
+                               (b, left_of_b): &(FeatureProgram<'_>, Left)| {
+            let without_both = || self.without_both(a.1, b.1);
+            [*left_of_a, *left_of_b] == [Left::Within; 2]
+                || without_both().is_some_and(|texts| left(&texts, a.1) == Left::NoDifference)
+        };
+        let mut pairs = pairs.filter(|(a, b)| is_theirs(a.0.0) && is_theirs(b.0.0) && is_nothing_left(a, b));
+        let (((a, _), _), ((b, _), _)) = pairs.next()?;
         pairs.next().is_none().then(|| vec![*a, *b])
     }
 
     /// The line whose feature goes by those of all others.
     fn innermost(&self, around: &[FeatureProgram<'_>], of: Shown, probes: &ProbeSet) -> Option<usize> {
         // A feature goes by another one where its text is gone with that, or makes no difference then.
-        let goes_by = |inner: &AcceptedAnswer, outer: &AcceptedAnswer| match without_both(outer, inner) {
+        let goes_by = |inner: &AcceptedAnswer, outer: &AcceptedAnswer| match self.without_both(outer, inner) {
             None => !inner.replaced.is_empty(),
             Some(texts) => {
                 let both = self.shown_by(&texts, None, probes);
@@ -120,13 +160,13 @@ impl Derived {
         })
     }
 
-    /// The slip that a mistake is, and the stage whose text it is in; none of one with a number of its own.
+    /// The slip that a mistake is, and the stage whose text it is in.
     fn slip(&self, found: &FoundMistake) -> Option<(Stage, SlipMark)> {
         let mistake = self.assignment.mistake(&found.id)?;
         if let Some(program) = mistake.program(found.form) {
             return program.slip.as_deref().cloned();
         }
-        let form = mistake.forms.get(found.form).filter(|form| !form.free)?;
+        let form = mistake.forms.get(found.form)?;
         let [changed] = &form.overrides[..] else { return None };
         let file = self.assignment.files.first()?;
         let (said, name) = read(&found.id)?;
@@ -162,16 +202,24 @@ impl Derived {
         let pipeline = Pipeline::link(&stages[0], &stages[1], None).ok()?;
         Some(self.assignment.computed_by(&AcceptedAnswer::new("", pipeline), probes))
     }
-}
 
-/// The texts of the solution without two features; none where the text of the second is gone with the first.
-fn without_both(first: &AcceptedAnswer, second: &AcceptedAnswer) -> Option<Vec<String>> {
-    let mut texts = first.texts.clone();
-    for [own, instead] in &second.replaced {
-        let text = texts.iter_mut().find(|text| text.contains(own.as_str()))?;
-        *text = text.replacen(own.as_str(), instead, 1);
+    /// The texts of the solution without two features; none where the text of the second is gone with the first.
+    fn without_both(&self, first: &AcceptedAnswer, second: &AcceptedAnswer) -> Option<Vec<String>> {
+        let mut texts = first.texts.clone();
+        for [own, instead] in &second.replaced {
+            let Some([_, without_first]) = first.replaced.iter().find(|[other, _]| other == own) else {
+                let text = texts.iter_mut().find(|text| text.contains(own.as_str()))?;
+                *text = text.replacen(own.as_str(), instead, 1);
+                continue;
+            };
+            // Both stand in one text.
+            let both = left_of_both(own, [without_first, instead]).filter(|_| first.replaced.len() == 1)?;
+            let place = |(file, own_file): (usize, &HandedIn)| Some((file, own_file.solution.text.find(own.as_str())?));
+            let (file, start) = self.assignment.files.iter().enumerate().find_map(place)?;
+            texts[file].replace_range(start..start + without_first.len(), &both);
+        }
+        (!second.replaced.is_empty()).then_some(texts)
     }
-    (!second.replaced.is_empty()).then_some(texts)
 }
 
 fn is_same(a: &[Computed], b: &[Computed], of: Shown) -> bool {
@@ -179,4 +227,44 @@ fn is_same(a: &[Computed], b: &[Computed], of: Shown) -> bool {
         Shown::Colour => agrees(*colour, *other, TOLERANCE),
         Shown::Position => (*position - *there).abs().max_element() <= TOLERANCE * there.abs().max_element().max(1.0),
     })
+}
+
+/// Whether a text stands in what is another one without a feature.
+fn stands_in(text: &str, feature: &AcceptedAnswer) -> bool {
+    // Brackets and numbers are written otherwise.
+    let words = |text: &str| -> Vec<String> {
+        let words = outline::words(text).into_iter().map(|word| word.text);
+        let words = words.filter(|word| !matches!(word.as_str(), "(" | ")" | ";"));
+        words.map(|word| word.parse::<f64>().map_or(word, |number| number.to_string())).collect()
+    };
+    let own = words(text);
+    feature.replaced.iter().any(|[around, _]| words(around).windows(own.len().max(1)).any(|part| part == own))
+}
+
+/// What is left of a text that two others are parts of: what is in both, or nothing of its value.
+fn left_of_both(text: &str, parts: [&str; 2]) -> Option<String> {
+    let words = |text| -> Vec<String> { outline::words(text).into_iter().map(|word| word.text).collect() };
+    let all = words(text);
+    let [first, second] = parts.map(|part| {
+        let part = words(part);
+        let mut next = part.iter().peekable();
+        let is_kept: Vec<bool> = all.iter().map(|word| next.next_if_eq(&word).is_some()).collect();
+        next.peek().is_none().then_some(is_kept)
+    });
+    let is_kept = first?.into_iter().zip(second?).map(|(first, second)| first && second);
+    let left: Vec<&str> = all.iter().zip(is_kept).filter(|(_, is)| *is).map(|(word, _)| word.as_str()).collect();
+    Some(if left.is_empty() { format!("0.0 * ({text})") } else { left.join(" ") })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::left_of_both;
+
+    #[test]
+    fn what_two_parts_have_of_a_text_is_left() {
+        let left = |text, parts| left_of_both(text, parts);
+        assert_eq!(left("base * (ambient + lamp)", ["(ambient + lamp)", "base * ambient"]).as_deref(), Some("ambient"));
+        assert_eq!(left("a*b + c", ["c", "a * b"]).as_deref(), Some("0.0 * (a*b + c)"));
+        assert_eq!(left("a + b", ["a", "vec3(0.0)"]), None, "that is no part of it");
+    }
 }

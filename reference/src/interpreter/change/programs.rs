@@ -6,7 +6,7 @@ pub use chosen::{program_slips, program_without_parts, slips_marked, slips_of_va
 
 use super::tree::{self, MetAs, TreeWalk, TypedNames, walk};
 use super::types::{DeclaredTypes, KnownTypes, guess, typed};
-use super::{Change, NameScope, Operator, changes, written};
+use super::{Change, FREE, NameScope, Operator, changes, written};
 use crate::interpreter::syntax::{Expression, ExpressionKind, Item, Name, Statement, StatementKind};
 use crate::interpreter::{Program, Refusal, Stage, compile, parse, text};
 use std::collections::HashSet;
@@ -100,15 +100,21 @@ impl PlacedSlip {
     }
 }
 
+/// `free`: what a number is, where one is looked for.
 fn slips_of(
     source: &str,
     stage: Stage,
     is_part: &dyn Fn(&str) -> bool,
+    free: Option<f64>,
     is_wanted: &dyn Fn(&PlacedSlip) -> bool,
 ) -> Result<Vec<ProgramSlip>, Refusal> {
     let preprocessed = text::preprocess(source)?;
-    let items = parse::parse(&preprocessed.tokens)?;
-    let mut slips = found(&items, is_part);
+    let mut items = parse::parse(&preprocessed.tokens)?;
+    if let Some(number) = free {
+        let declared = text::preprocess(&format!("const float {FREE} = {number:?};"))?;
+        items.splice(..0, parse::parse(&declared.tokens)?);
+    }
+    let mut slips = found(&items, is_part, free.is_some());
     slips.retain(is_wanted);
     slips.sort_by_key(PlacedSlip::operator);
     slips.truncate(MOST);
@@ -128,7 +134,8 @@ fn slips_of(
     Ok(slips.iter().filter_map(compiled).collect())
 }
 
-fn found(items: &[Item], is_part: &dyn Fn(&str) -> bool) -> Vec<PlacedSlip> {
+/// `free`: whether a number that a slip puts in is left open.
+fn found(items: &[Item], is_part: &dyn Fn(&str) -> bool, free: bool) -> Vec<PlacedSlip> {
     let mut items = items.to_vec();
     let mut slips = Vec::new();
     let mut of_statements = Vec::new();
@@ -163,7 +170,7 @@ fn found(items: &[Item], is_part: &dyn Fn(&str) -> bool) -> Vec<PlacedSlip> {
                 statement += 1;
             },
             expression: &mut |own, met, names| {
-                let changes = changes_of(own, names).into_iter();
+                let changes = changes_of(own, names, free).into_iter();
                 let part = |change: &Change| {
                     let [before, after] =
                         [&*own, &change.expression].map(|root| tree::ExpressionPlace::of(root, &change.path).own);
@@ -193,12 +200,12 @@ fn found(items: &[Item], is_part: &dyn Fn(&str) -> bool) -> Vec<PlacedSlip> {
     slips
 }
 
-fn changes_of(own: &Expression, names: &TypedNames) -> Vec<Change> {
+fn changes_of(own: &Expression, names: &TypedNames, free: bool) -> Vec<Change> {
     let typed = typed(names, own.line);
     // What its functions and members are is changed where they are given it.
     let known = KnownTypes { names: &typed, declared: &DeclaredTypes::default() };
     let mut kind = |expression: &Expression| guess(expression, known);
-    changes(own, &mut NameScope { names: &typed, constants: &HashSet::new(), kind: &mut kind, free: false })
+    changes(own, &mut NameScope { names: &typed, constants: &HashSet::new(), kind: &mut kind, free })
 }
 
 /// A statement, as it is told.

@@ -1,16 +1,48 @@
 //! Slips of a program by what is asked of them.
 
 use super::{PlacedSlip, ProgramSlip, SlipMark, found, slips_of};
-use crate::interpreter::change::{Operator, written};
+use crate::interpreter::change::{FREE, Operator, written};
+use crate::interpreter::outline::{self, Word};
 use crate::interpreter::{Program, Refusal, Stage, parse, text};
 
-/// The programs with each of the slips that have a mark.
+/// A number where a slip may have any.
+const ANY: f64 = 0.371;
+
+/// The programs with each of the slips that have a mark; where there is none, with those that leave out the same words of another text.
+/// A number that the mark leaves open is any.
 ///
 /// # Errors
 /// The program is none.
 pub fn slips_marked(source: &str, stage: Stage, mark: &SlipMark) -> Result<Vec<Program>, Refusal> {
-    let slips = slips_of(source, stage, &|_| true, &|slip| slip.mark() == *mark)?;
-    Ok(slips.into_iter().map(|slip| slip.program).collect())
+    let free = mark.texts.1.as_ref().filter(|text| text.contains(FREE)).map(|_| ANY);
+    let marked = |is_it: &dyn Fn(&SlipMark) -> bool| -> Result<Vec<Program>, Refusal> {
+        let slips = slips_of(source, stage, &|_| true, free, &|slip| is_it(&slip.mark()))?;
+        Ok(slips.into_iter().map(|slip| slip.program).collect())
+    };
+    let same = marked(&|own| own == mark)?;
+    if same.is_empty() { marked(&|own| own.leaves_out_the_same(mark)) } else { Ok(same) }
+}
+
+impl SlipMark {
+    fn leaves_out_the_same(&self, other: &Self) -> bool {
+        let left_out = self.left_out();
+        left_out.is_some() && self.operator == other.operator && self.name == other.name && left_out == other.left_out()
+    }
+
+    /// The words that go, some of them names, where others stay and none comes.
+    fn left_out(&self) -> Option<Vec<String>> {
+        // What stands beside a change decides where brackets are.
+        let words = |text: &str| -> Vec<Word> {
+            outline::words(text).into_iter().filter(|word| !matches!(word.text.as_str(), "(" | ")")).collect()
+        };
+        let (own, left) = (words(&self.texts.0), words(self.texts.1.as_deref()?));
+        let before = own.iter().zip(&left).take_while(|(own, left)| own.text == left.text).count();
+        let (own, left) = (&own[before..], &left[before..]);
+        let gone = own.len().checked_sub(left.len())?;
+        let ends_so = own[gone..].iter().zip(left).all(|(own, left)| own.text == left.text);
+        let is_it = ends_so && before + left.len() > 0 && own[..gone].iter().any(|word| word.is_name);
+        is_it.then(|| own[..gone].iter().map(|word| word.text.clone()).collect())
+    }
 }
 
 /// The slips in `main` by which a variable is given what is written.
@@ -25,7 +57,8 @@ pub fn slips_written(source: &str, (of, name): (Operator, &str), text: &str) -> 
         }
         _ => false,
     };
-    Ok(found(&items, &|function| function == "main").iter().filter(|slip| is_it(slip)).map(PlacedSlip::mark).collect())
+    let slips = found(&items, &|function| function == "main", text.contains(FREE));
+    Ok(slips.iter().filter(|slip| is_it(slip)).map(PlacedSlip::mark).collect())
 }
 
 /// The slips of a program in those of its functions that `is_part` names, as far as they are programs. The plainer ones come first.
@@ -33,7 +66,7 @@ pub fn slips_written(source: &str, (of, name): (Operator, &str), text: &str) -> 
 /// # Errors
 /// The program is none.
 pub fn program_slips(source: &str, stage: Stage, is_part: &dyn Fn(&str) -> bool) -> Result<Vec<ProgramSlip>, Refusal> {
-    slips_of(source, stage, is_part, &|slip| !matches!(slip, PlacedSlip::Branch(..)))
+    slips_of(source, stage, is_part, None, &|slip| !matches!(slip, PlacedSlip::Branch(..)))
 }
 
 /// Those in `main` by which certain variables are given another value.
@@ -45,7 +78,9 @@ pub fn slips_of_variables(
     stage: Stage,
     is_one: &dyn Fn(&str) -> bool,
 ) -> Result<Vec<ProgramSlip>, Refusal> {
-    slips_of(source, stage, &|function| function == "main", &|slip| slip.parts().0.is_some_and(|name| is_one(name)))
+    slips_of(source, stage, &|function| function == "main", None, &|slip| {
+        slip.parts().0.is_some_and(|name| is_one(name))
+    })
 }
 
 /// The program without each of its parts: a statement, a branch, an operand, a function around a value.
@@ -53,5 +88,5 @@ pub fn slips_of_variables(
 /// # Errors
 /// The program is none.
 pub fn program_without_parts(source: &str, stage: Stage) -> Result<Vec<ProgramSlip>, Refusal> {
-    slips_of(source, stage, &|_| true, &|slip| slip.operator() <= Operator::FallsThrough)
+    slips_of(source, stage, &|_| true, None, &|slip| slip.operator() <= Operator::FallsThrough)
 }
