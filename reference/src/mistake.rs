@@ -2,7 +2,7 @@
 
 use crate::Text;
 use crate::accepted::AcceptedAnswer;
-use crate::interpreter::Formula;
+use crate::interpreter::{FREE, Formula};
 
 /// A mistake that students make, as one hypothesis about the equation.
 #[derive(Clone, Debug)]
@@ -135,6 +135,15 @@ impl Mistake {
             equation: other.and_then(|other| other.equation.as_ref()).unwrap_or(&self.equation),
             look: other.and_then(|other| other.look.as_ref()).unwrap_or(&self.look),
         }
+    }
+
+    /// The number by which it explains what is seen, where it has one; below 0 where a derived one subtracts it or turns all around.
+    pub fn number(&self, found: &FoundMistake) -> Option<f64> {
+        let written = self.forms.get(found.form).and_then(|form| form.overrides.first()).map(|own| own.text.as_str());
+        let is_turned = written.and_then(|text| text.split_once(FREE)).is_some_and(|(before, behind)| {
+            before.trim_end().ends_with('-') || before.starts_with("-(") && behind == ")"
+        });
+        found.parameter.map(|number| if is_turned { -number } else { number })
     }
 
     /// In how many ways it is written.

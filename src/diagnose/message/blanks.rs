@@ -99,8 +99,8 @@ impl<'f> Blanks<'f> {
                     Some(line) => blanks.is_at(evidence, evidence.source, line),
                     None => blanks.place(evidence, mistake, facts.place(id).cloned().or(met)),
                 }
-                let parameter = found.iter().find(|found| found.id == id).and_then(|found| found.parameter);
-                blanks.parameter(parameter, evidence, mistake);
+                let own = found.iter().find(|found| found.id == id);
+                blanks.parameter(own.and_then(|own| mistake.number(own)), evidence, mistake);
             }
             _ => {
                 if evidence.frames.iter().all(FrameResult::agrees) {
