@@ -133,7 +133,7 @@ fn nearly_right(evidence: &Evidence<'_>) -> Cause {
     Cause::NearlyRight(spared.unwrap_or_default())
 }
 
-/// The one mistake by which something stands elsewhere, where all colours are right: a derived one, or what one change of the text mends.
+/// The mistakes by which something stands elsewhere, where all colours are right: a derived one, or those that changes of the text mend.
 fn moved(evidence: &Evidence<'_>, samples: &[[f64; 3]], is_there: &dyn Fn(usize, DVec4) -> bool) -> Option<Cause> {
     let assignment = evidence.assignment;
     let mut of_position = (0..assignment.rubric.len()).filter(|at| assignment.judges_position(&assignment.rubric[*at]));
@@ -152,11 +152,14 @@ fn moved(evidence: &Evidence<'_>, samples: &[[f64; 3]], is_there: &dyn Fn(usize,
     if judges_position || !assignment.is_told_by_features() {
         return None;
     }
-    let (_, repairs) = inside::account(evidence, &mut || false);
-    let [repaired] = <[Repaired; 1]>::try_from(repairs).ok()?;
-    let mut lines = worth::charged(assignment, &[], &repaired);
-    lines.retain(|id| moves(id));
-    (!lines.is_empty()).then(|| Cause::Repaired(vec![(lines, repaired)]))
+    let (_, repairs) = inside::account(evidence, &mut || true);
+    let charged = |repaired: Repaired| {
+        let mut lines = worth::charged(assignment, &[], &repaired);
+        lines.retain(|id| moves(id));
+        (!lines.is_empty()).then_some((lines, repaired))
+    };
+    let repairs: Vec<_> = repairs.into_iter().map(charged).collect::<Option<_>>()?;
+    (!repairs.is_empty()).then_some(Cause::Repaired(repairs))
 }
 
 /// Whether a mistake costs more than half of all points: then whatever makes little of a right answer show may show the same.
