@@ -244,8 +244,8 @@ impl Ingredients {
                     kind: ExpressionKind::Member(Box::new(bracketed(value)), "xyz".into()),
                     ..value.clone()
                 },
-                // A number becomes a vector by a factor only.
-                (_, 1) if !is_whole => value.clone(),
+                // A number becomes a vector by a factor only, where a vector may stand as well.
+                (_, 1) if !is_whole || place.parent.is_some_and(is_given_by_an_operator) => value.clone(),
                 _ => continue,
             };
             let named = |mistake, expression| Added { name: Some(name.clone()), ..plain(mistake, expression) };
@@ -271,6 +271,11 @@ impl Ingredients {
 /// Whether an expression measures vectors, which are differences and sums of places and directions.
 fn is_measure(parent: &Expression) -> bool {
     matches!(&parent.kind, ExpressionKind::Call(name, _) if ["distance", "dot", "length", "normalize"].contains(&&**name))
+}
+
+/// Whether what is given is added to a variable, or the like, which may be a vector while that is a number.
+fn is_given_by_an_operator(parent: &Expression) -> bool {
+    matches!(parent.kind, ExpressionKind::Assign(Some(_), ..))
 }
 
 /// Whether an expression gives its operands to a function.
