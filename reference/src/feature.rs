@@ -9,7 +9,7 @@ use crate::interpreter::outline::{self, Word};
 use crate::mistake::MistakeForm;
 use crate::probes::ProbeSet;
 use crate::traced::TracedProgram;
-use std::ops::Range;
+use std::ops::{Range, RangeInclusive};
 
 /// The solution without what a line judges.
 #[derive(Clone, Debug)]
@@ -20,11 +20,23 @@ pub enum Feature {
     Program(AcceptedAnswer),
 }
 
+/// The solution with the value of a line's feature, or with what is there instead of it.
+#[derive(Debug)]
+pub struct FeatureValue {
+    /// The program.
+    pub program: TracedProgram,
+    /// The stage that the value is computed in.
+    pub stage: Stage,
+    /// Where it is computed.
+    pub site: usize,
+    /// Where anything is computed that stands in the text of the feature.
+    pub within: Vec<usize>,
+}
+
 impl Assignment {
     /// The value that is missing in the solution without what a line of the rubric judges, and what is there instead: the solution
-    /// with the one and with the other, and the stage and the site of the value in it. None where what is replaced is no value by
-    /// itself.
-    pub fn feature_values(&self, line: usize) -> Option<[(TracedProgram, Stage, usize); 2]> {
+    /// with the one and with the other. None where what is replaced is no value by itself.
+    pub fn feature_values(&self, line: usize) -> Option<[FeatureValue; 2]> {
         let Some(Feature::Program(program)) = self.features.get(line)? else { return None };
         let [[text, instead]] = program.replaced.as_slice() else { return None };
         let (value, instead) = operand(text, instead);
@@ -96,26 +108,34 @@ impl Assignment {
             && lines().all(|(line, feature)| feature.is_some() || line.judges == *colour)
     }
 
-    /// The solution with something in the place of a value within a text that stands in it, and the site of that.
-    fn with_value(&self, around: &str, value: &str, instead: &str) -> Option<(TracedProgram, Stage, usize)> {
+    /// The solution with something in the place of a value within a text that stands in it.
+    fn with_value(&self, around: &str, value: &str, instead: &str) -> Option<FeatureValue> {
         let file = self.files.iter().position(|file| file.solution.text.contains(around))?;
         let mut texts: Vec<(Stage, String)> =
             self.files.iter().map(|file| (file.stage, file.solution.text.clone())).collect();
         let (stage, text) = &mut texts[file];
         let stage = *stage;
-        // On a line of its own it is told from all else.
-        let start = text.find(around)? + around.find(value)?;
-        let (before, behind) = (&text[..start], &text[start + value.len()..]);
-        let own = before.lines().count() as u32 + 1;
-        *text = format!("{before}\n{instead}\n{behind}");
+        // On lines of their own the text and the value are told from all else.
+        let (before, behind) = text.split_once(around)?;
+        let (head, tail) = around.split_once(value)?;
+        let line_after = |text: &str| text.matches('\n').count() as u32 + 1;
+        let before = format!("{before}\n");
+        let to_value = format!("{before}{head}\n");
+        let to_end = format!("{to_value}{instead}\n{tail}");
+        let (first, own, last) = (line_after(&before), line_after(&to_value), line_after(&to_end));
+        *text = format!("{to_end}\n{behind}");
         let texts: Vec<(Stage, &str)> = texts.iter().map(|(stage, text)| (*stage, text.as_str())).collect();
-        let solution = TracedProgram::new(self, &texts).ok().filter(|_| !instead.contains('\n'))?;
-        let sites = solution.stage(stage).sites();
-        let there = || sites.iter().enumerate().filter(|(_, site)| site.line == own);
-        let is_whole = |at: usize| !there().any(|(_, site)| site.operands.contains(&at));
-        let whole: Vec<usize> = there().map(|(at, _)| at).filter(|at| is_whole(*at)).collect();
+        let program = TracedProgram::new(self, &texts).ok().filter(|_| !instead.contains('\n'))?;
+        let sites = program.stage(stage).sites();
+        let there = |lines: RangeInclusive<u32>| -> Vec<usize> {
+            (0..sites.len()).filter(|at| lines.contains(&sites[*at].line)).collect()
+        };
+        let of_value = there(own..=own);
+        let is_whole = |at: &&usize| !of_value.iter().any(|site| sites[*site].operands.contains(at));
+        let whole: Vec<usize> = of_value.iter().filter(is_whole).copied().collect();
         let [site] = whole[..] else { return None };
-        Some((solution, stage, site))
+        let within = there(first..=last);
+        Some(FeatureValue { program, stage, site, within })
     }
 
     /// The colour and the position that the solution without a feature computes at each probe.

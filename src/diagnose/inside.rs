@@ -7,6 +7,7 @@
 
 mod abrupt;
 mod additive;
+mod around;
 mod blame;
 mod candidates;
 mod chain;
@@ -69,8 +70,8 @@ pub(super) struct Finding {
     pub touches_position: bool,
     /// What is wrong with it.
     pub flaw: Flaw,
-    /// The id of the line of the rubric within whose feature it is, where that is known.
-    pub feature: Option<String>,
+    /// The ids of the lines of the rubric within whose features it is, where that is known.
+    pub features: Vec<String>,
     /// What it should be, and what it is, at a place that shows it.
     pub expected: Vec<f64>,
     pub found: Vec<f64>,
@@ -160,11 +161,11 @@ pub(super) fn added_lines(evidence: &Evidence<'_>) -> Vec<String> {
     within(evidence, evidence.assignment, &[], &[], |search| search.added_lines()).unwrap_or_default()
 }
 
-/// The id of the line of the rubric within whose feature all places of mistakes are.
-pub(super) fn feature_of_all(evidence: &Evidence<'_>) -> Option<String> {
-    let mut features = find(evidence).into_iter().map(|finding| finding.feature);
-    let first = features.next()??;
-    features.all(|other| other.as_ref() == Some(&first)).then_some(first)
+/// The ids of the lines of the rubric within whose features all places of mistakes are.
+pub(super) fn features_of_all(evidence: &Evidence<'_>) -> Vec<String> {
+    let mut features = find(evidence).into_iter().map(|finding| finding.features);
+    let first = features.next().unwrap_or_default();
+    if features.all(|other| other == first) { first } else { Vec::new() }
 }
 
 /// The one place that all is mended at, where these are such a place.

@@ -50,14 +50,19 @@ impl Assignment {
     /// Whether one line of the rubric alone is about a variable of the solution, which is given one value, so that the line is about all
     /// that it is. What is given several values one after the other may have those of other lines.
     pub fn is_of_one_line(&self, variable: &str) -> bool {
-        self.lines_about(variable).count() == 1 && self.times_given(variable) == 1
+        self.lines_about(variable).count() == 1 && !self.is_of_several(variable)
     }
 
     /// The lines that a mistake in a variable costs, where nothing else tells. Of one that is given several values, the only line that is
     /// about it may be about one of them.
     pub fn lines_owning(&self, variable: &str) -> Vec<&RubricLine> {
         let about: Vec<&RubricLine> = self.lines_about(variable).collect();
-        if about.len() == 1 && self.times_given(variable) > 1 { Vec::new() } else { about }
+        if about.len() == 1 && self.is_of_several(variable) { Vec::new() } else { about }
+    }
+
+    /// Whether a variable may have something of several lines: it is given several values, or is all that is seen.
+    fn is_of_several(&self, variable: &str) -> bool {
+        self.times_given(variable) > 1 || self.equation.index(variable) == Some(self.equation.colour)
     }
 
     /// How often the solution gives a variable a value.

@@ -101,8 +101,8 @@ pub fn beside(evidence: &Evidence<'_>, mut terms: Vec<TermJudgement>, findings: 
 /// follows from it.
 pub fn elsewhere(assignment: &Assignment, findings: &[Finding]) -> Option<Vec<String>> {
     let owners = |finding: &Finding| -> Option<Vec<&RubricLine>> {
-        if let Some(within) = finding.feature.as_ref().filter(|_| !finding.is_whole && !finding.touches_position) {
-            return Some(assignment.rubric.iter().filter(|line| line.id == *within).collect());
+        if !(finding.features.is_empty() || finding.is_whole || finding.touches_position) {
+            return Some(assignment.rubric.iter().filter(|line| finding.features.contains(&line.id)).collect());
         }
         let name = finding.serves.as_deref().filter(|_| !finding.is_whole)?;
         let about = || assignment.lines_about(name);
@@ -131,10 +131,9 @@ pub fn by_text(evidence: &Evidence<'_>, found: &[FoundMistake]) -> Vec<String> {
         return Vec::new();
     }
     let costly: Vec<&str> = costly.into_iter().map(|line| line.id.as_str()).collect();
-    if let ([_, _, ..], [_], Some(within)) = (&costly[..], found, inside::feature_of_all(evidence))
-        && costly.contains(&within.as_str())
-    {
-        let is_other = |line: &&RubricLine| line.id != within && !assignment.judges_position(line);
+    let within = if let [_] = found { inside::features_of_all(evidence) } else { Vec::new() };
+    if !within.is_empty() && within.iter().all(|id| costly.contains(&id.as_str())) {
+        let is_other = |line: &&RubricLine| !within.contains(&line.id) && !assignment.judges_position(line);
         return assignment.rubric.iter().filter(is_other).map(|line| line.id.clone()).collect();
     }
     let spared = computed_of(evidence, &costly);

@@ -9,6 +9,9 @@ use reference::derived::{definition, is_derived};
 use reference::fit::{FeatureDefect, FeatureExplanation, TermJudgement};
 use reference::interpreter::Stage;
 
+/// What is made of more lines' features is all that is seen: these tell more by themselves.
+const MOST_LINES: usize = 2;
+
 /// What is said of a feature.
 pub(super) const fn part_id(part: FeatureDefect) -> &'static str {
     match part {
@@ -64,13 +67,18 @@ pub(super) fn charged(assignment: &Assignment, terms: &[TermJudgement], repaired
     lines
 }
 
-/// Those that are about the variable that it is in, or the one within whose feature it is; else those of which it spoils what they
+/// Those that are about the variable that it is in, or those within whose features it is; else those of which it spoils what they
 /// judge, but for terms that are right by themselves. Where it spoils none of these, such as a sum, all that are not right.
 fn of_colour(assignment: &Assignment, terms: &[TermJudgement], repaired: &Repaired) -> Vec<String> {
     let is_wrong = |line: &&RubricLine| terms.iter().any(|term| term.line == line.id && !term.is_right());
     // What cannot be judged by itself is not known to be right.
     let is_right = |line: &&RubricLine| terms.iter().any(|term| term.line == line.id && term.is_right());
     let is_colour = |line: &&RubricLine| !assignment.judges_position(line);
+    // Of some lines those that are wrong by themselves, or all where none is.
+    let wrong_of = |lines: Vec<&RubricLine>| -> Vec<String> {
+        let is_any = lines.iter().any(is_wrong);
+        lines.into_iter().filter(|line| !is_any || is_wrong(line)).map(|line| line.id.clone()).collect()
+    };
     // Which element of an array is taken is a matter of the turns of the loop that goes through it.
     if repaired.is_of_an_element()
         && let Some(turns) = (0..assignment.rubric.len()).find(|line| assignment.judges_turns(*line))
@@ -84,11 +92,11 @@ fn of_colour(assignment: &Assignment, terms: &[TermJudgement], repaired: &Repair
     };
     let output = repaired.located.name.as_deref().filter(is_read);
     let name = output.or(definition(&repaired.mistake.id));
-    // A change within what a line judges is of that line.
-    if let (None, Some(line)) = (output, &repaired.line)
-        && !name.is_some_and(|name| assignment.is_of_one_line(name))
-    {
-        return vec![line.clone()];
+    // A change within what lines judge is of these.
+    let is_of_one_line = || name.is_some_and(|name| assignment.is_of_one_line(name));
+    if output.is_none() && matches!(repaired.lines.len(), 1..=MOST_LINES) && !is_of_one_line() {
+        let lines = assignment.rubric.iter().filter(|line| repaired.lines.contains(&line.id));
+        return wrong_of(lines.collect());
     }
     let about = name.into_iter().flat_map(|name| assignment.lines_owning(name));
     // Where all stands is seen by itself.
@@ -100,9 +108,7 @@ fn of_colour(assignment: &Assignment, terms: &[TermJudgement], repaired: &Repair
         return vec![hidden.id.clone()];
     }
     if !about.is_empty() {
-        let wrong: Vec<&RubricLine> = about.iter().copied().filter(is_wrong).collect();
-        let charged = if wrong.is_empty() { about } else { wrong };
-        return charged.into_iter().map(|line| line.id.clone()).collect();
+        return wrong_of(about);
     }
     let is_spoilt = |line: &&RubricLine| repaired.touches.contains(&line.judges) && !assignment.is_beside_terms(line);
     let lines = || assignment.rubric.iter().filter(is_colour);

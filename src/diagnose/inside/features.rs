@@ -5,41 +5,12 @@ use super::search::Search;
 use super::walk::{made_of, roots};
 use super::{FUEL_OF_TRACE, Stage};
 use crate::diagnose::addends::{ADDED, OVERFLOWING, passes, raised};
-use crate::diagnose::columns::{ScalarColumns, is_constant, is_equal, is_number, is_same};
+use crate::diagnose::columns::{ScalarColumns, is_constant, is_number, is_same};
 use crate::diagnose::trials::StageChanges;
 use glam::DVec3;
-use reference::assignment::RubricLine;
+use reference::feature::FeatureValue;
 use reference::interpreter::trace::{Event, Trace};
-use reference::traced::{Bench, Seen, TracedProgram};
-
-/// The solution with a feature's value or with what is there instead, and the stage and the site of that.
-type FeatureValue = (TracedProgram, Stage, usize);
-
-/// What the value of a line's feature is made of.
-#[derive(Clone, Debug)]
-pub(super) struct FeatureWay {
-    /// The line's id.
-    line: String,
-    /// The value, turn by turn.
-    values: Vec<ScalarColumns>,
-    way: Vec<ScalarColumns>,
-    /// What of that nothing else is made of.
-    own: Vec<ScalarColumns>,
-}
-
-impl FeatureWay {
-    /// Whether another one is made of it.
-    fn leads_to(&self, other: &Self) -> bool {
-        self.values.iter().all(|value| has(&other.way, value))
-    }
-}
-
-fn has(values: &[ScalarColumns], value: &ScalarColumns) -> bool {
-    values.iter().any(|own| is_equal(own, value))
-}
-
-/// Programs with more events are not compared.
-const MOST_EVENTS: usize = 4_000;
+use reference::traced::{Bench, Seen};
 
 /// A loop of more turns is not followed.
 const MOST_TURNS: usize = 16;
@@ -83,59 +54,6 @@ impl Search<'_, '_> {
         })
     }
 
-    /// The id of the line within whose feature values are that come of one mistake, in their order: the first one that has such a value to
-    /// itself; none where another feature beside it has. Numbers that are the same everywhere tell nothing.
-    pub fn line_around<'v>(&self, values: impl IntoIterator<Item = &'v ScalarColumns>) -> Option<String> {
-        // All goes through what a line judges by a definition, such as a term.
-        if !self.assignment.is_told_by_features() {
-            return None;
-        }
-        let ways = self.features.get_or_init(|| self.feature_ways());
-        let of_value = |value: &ScalarColumns| {
-            let around: Vec<&FeatureWay> = ways.iter().filter(|way| has(&way.own, value)).collect();
-            let is_innermost =
-                |way: &&&FeatureWay| around.iter().all(|other| way.line == other.line || way.leads_to(other));
-            around.iter().find(is_innermost).copied()
-        };
-        // Beside a feature of which no value is known, only the first value tells.
-        let is_known = |line: &RubricLine| ways.iter().any(|way| way.line == line.id);
-        let rubric = self.assignment.rubric.iter().enumerate();
-        let all_are_known = rubric
-            .filter(|(number, line)| {
-                self.assignment.features[*number].is_some() && !self.assignment.judges_position(line)
-            })
-            .all(|(_, line)| is_known(line));
-        let values = values.into_iter().take(if all_are_known { usize::MAX } else { 1 });
-        let varying = values.filter(|value| !is_constant(value));
-        let around: Vec<&FeatureWay> = varying.filter_map(of_value).collect();
-        let first = *around.first()?;
-        // One goes into the other, or is a part of it.
-        let is_related = |other: &&FeatureWay| first.leads_to(other) || other.leads_to(first);
-        around.iter().all(is_related).then(|| first.line.clone())
-    }
-
-    fn feature_ways(&self) -> Vec<FeatureWay> {
-        let traced = |program: &TracedProgram, stage: Stage| -> Option<Trace> {
-            let mut bench = Bench::new(self.assignment, program, self.places, self.in_quads, FUEL_OF_TRACE)?;
-            let trace = bench.trace(&StageChanges::default())?.1[stage as usize].take()?;
-            Some(trace).filter(|trace| trace.events.len() <= MOST_EVENTS)
-        };
-        let way = |line: &RubricLine, number: usize| {
-            let [(with, stage, site), (without, ..)] = self.assignment.feature_values(number)?;
-            let (with, without) = (traced(&with, stage)?, traced(&without, stage)?);
-            let events: Vec<usize> = (0..with.events.len()).filter(|at| with.events[*at].site == site).collect();
-            let value = |event: usize| with.events[event].values.clone();
-            let way: Vec<ScalarColumns> = made_of(&with, &events).into_iter().map(value).collect();
-            let left = made_of(&without, &roots(&without));
-            let is_left =
-                |value: &ScalarColumns| left.iter().any(|event| is_equal(&without.events[*event].values, value));
-            let own = way.iter().filter(|value| !is_left(value)).cloned().collect();
-            Some(FeatureWay { line: line.id.clone(), values: events.into_iter().map(value).collect(), way, own })
-        };
-        let rubric = self.assignment.rubric.iter().enumerate();
-        rubric.filter_map(|(number, line)| way(line, number)).collect()
-    }
-
     fn lines_with(&self, is_it: impl Fn(&Self, &Feature) -> bool) -> Vec<String> {
         let rubric = self.assignment.rubric.iter().enumerate();
         let has_it = |line: usize| {
@@ -170,8 +88,8 @@ impl Search<'_, '_> {
         if self.in_quads {
             return None;
         }
-        let [with, without] = programs.each_ref().map(|(program, ..)| {
-            let bench = Bench::new(self.assignment, program, self.places, self.in_quads, FUEL_OF_TRACE)?;
+        let [with, without] = programs.each_ref().map(|own| {
+            let bench = Bench::new(self.assignment, &own.program, self.places, self.in_quads, FUEL_OF_TRACE)?;
             Some(bench.bounded(OVERFLOWING).with(&StageChanges::default())?.colours)
         });
         let more: Vec<DVec3> = with?.iter().zip(without?).map(|(with, without)| *with - without).collect();
@@ -197,7 +115,7 @@ impl Search<'_, '_> {
     }
 
     /// The values of a site, turn by turn, and by how much all that is seen moves when something is added to each.
-    fn value_of(&self, (program, stage, site): &FeatureValue) -> Option<(Vec<Event>, Vec<DVec3>)> {
+    fn value_of(&self, FeatureValue { program, stage, site, .. }: &FeatureValue) -> Option<(Vec<Event>, Vec<DVec3>)> {
         let mut bench = Bench::new(self.assignment, program, self.places, self.in_quads, FUEL_OF_TRACE)?;
         let (before, traces) = bench.trace(&StageChanges::default())?;
         let trace = traces[*stage as usize].as_ref()?;

@@ -51,7 +51,7 @@ impl Search<'_, '_> {
             line,
             name,
             quantity: quantity.and_then(|quantity| quantity.names.first().cloned()),
-            feature: if is_of_one_line { None } else { self.line_around(mend.values.first()) },
+            features: if is_of_one_line { Vec::new() } else { self.lines_around(self.mended(mend)) },
             serves,
             is_settled: self.is_settled(mend),
             is_whole: self.is_whole(mend),

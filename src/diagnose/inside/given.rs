@@ -6,6 +6,7 @@ use crate::diagnose::Evidence;
 use crate::diagnose::columns::is_constant;
 use crate::diagnose::trials::{FUEL_OF_TRACE, StageChanges, chosen, place};
 use reference::assignment::RubricLine;
+use reference::feature::FeatureValue;
 use reference::interpreter::trace::{Event, Trace, What};
 use reference::interpreter::{Program, ProgramVariable, is_lookup, root};
 use reference::pipeline::POSITION;
@@ -85,7 +86,7 @@ fn needed(evidence: &Evidence<'_>, solution: &Runs<'_>, number: usize) -> Option
     let line = &assignment.rubric[number];
     let names = match line.variables.as_slice() {
         [] if assignment.equation.index(&line.judges) == Some(assignment.equation.colour()) => {
-            let of_value = |(program, stage, site): &(TracedProgram, Stage, usize)| {
+            let of_value = |FeatureValue { program, stage, site, .. }: &FeatureValue| {
                 let runs = (program, runs(evidence, program)?);
                 Some(given_for(&runs, *stage, &events_where(&runs, *stage, |event| event.site == *site)))
             };

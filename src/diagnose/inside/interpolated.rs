@@ -58,7 +58,7 @@ impl Search<'_, '_> {
             is_telling: true,
             touches_position: false,
             flaw: Flaw::Interpolation,
-            feature: None,
+            features: Vec::new(),
             expected: Vec::new(),
             found: Vec::new(),
         })

@@ -1,8 +1,8 @@
 //! Which value has to be another one for all that is seen to be right.
 
+use super::around::FeatureWay;
 use super::candidates::Mend;
 use super::chain::Chain;
-use super::features::FeatureWay;
 use super::quantities::Quantity;
 use super::walk::{Suspect, made_of, roots, suspects};
 use super::*;

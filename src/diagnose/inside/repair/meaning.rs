@@ -1,7 +1,8 @@
 //! What a change of the text means: which definition of the right answer it concerns.
 
 use super::{RepairAttempt, RepairStep, Repaired};
-use crate::diagnose::columns::{ScalarColumns, is_colour, is_constant, is_equal, is_same};
+use crate::diagnose::columns::{is_colour, is_constant, is_equal, is_same};
+use crate::diagnose::inside::around::ReachedValue;
 use crate::diagnose::inside::candidates::Mend;
 use crate::diagnose::inside::chain::Link;
 use crate::diagnose::inside::quantities::Quantity;
@@ -56,15 +57,15 @@ impl Search<'_, '_> {
             located: Located { line: repair.line, name, role: MistakeOrigin::Wrong, stage: Some(*stage) },
             texts: repair.texts.clone(),
             numbers: None,
-            line: if is_of_loop { None } else { self.line_of(program, &trace) },
+            lines: if is_of_loop { Vec::new() } else { self.lines_that_it_is_in(program, &trace, repair.mistake) },
             moves: self.stands_elsewhere(&attempt.seen) && self.is_in_place(&seen),
             touches: definition.map_or_else(Vec::new, |name| self.quantities.spoilt_by(*stage, &name)),
         })
     }
 
-    /// The line of the rubric within whose feature a change is, by the values that come of it.
-    fn line_of(&self, program: &Program, trace: &Trace) -> Option<String> {
-        self.line_around(reached_values(program, trace).into_iter().take(MOST_REACHED))
+    /// The lines of the rubric within whose features a change is, by the values that come of it.
+    fn lines_that_it_is_in(&self, program: &Program, trace: &Trace, mistake: Operator) -> Vec<String> {
+        self.lines_around(reached_values(program, trace, mistake).into_iter().take(MOST_REACHED))
     }
 
     /// Whether a place by itself says what is wrong: something is computed there from what is right, and is one of the values of the
@@ -90,7 +91,7 @@ impl Search<'_, '_> {
             located: finding.located(),
             texts: [written, String::new()],
             numbers: None,
-            line: None,
+            lines: Vec::new(),
             moves: false,
             touches: finding.touches.clone(),
         }
@@ -102,8 +103,8 @@ impl Search<'_, '_> {
         let is_judged = |name: &&String| self.assignment.is_judged(name);
         let definition = own.filter(is_judged).cloned().or_else(|| self.judged_operand(mend)).or(own.cloned());
         let mistake = self.assignment.repaired(Operator::Otherwise, definition.as_deref(), false);
-        let line = self.line_around(mend.values.first());
-        Repaired { numbers: finding.numbers(), line, ..self.known_at(mistake, finding) }
+        let lines = self.lines_around(self.mended(mend));
+        Repaired { numbers: finding.numbers(), lines, ..self.known_at(mistake, finding) }
     }
 
     /// The one variable that a value is computed from at once and that a line of the rubric is about.
@@ -215,17 +216,21 @@ fn is_count(sites: &[Site], site: usize) -> bool {
     is_whole && sites.iter().any(|user| user.operands.contains(&site) && counts(&user.what))
 }
 
-/// What was changed, and what is computed from it or decided by it, in this order; none that is the same everywhere.
-fn reached_values<'t>(program: &Program, trace: &'t Trace) -> Vec<&'t ScalarColumns> {
+/// What was changed, and what is computed from it or decided by it, in this order; none that is the same everywhere. Another value is
+/// the wrong one in what is made of it.
+fn reached_values<'t>(program: &Program, trace: &'t Trace, mistake: Operator) -> Vec<ReachedValue<'t>> {
     let is_marked = |event: &Event| program.sites()[event.site].line == ProgramRepair::MARK;
-    let mut is_reached: Vec<bool> = trace.events.iter().map(is_marked).collect();
+    let mut is_computed: Vec<bool> = trace.events.iter().map(is_marked).collect();
+    let mut is_reached = is_computed.clone();
     for (number, event) in trace.events.iter().enumerate() {
+        is_computed[number] |= event.from.iter().any(|from| is_computed[*from]);
         is_reached[number] |= event.from.iter().chain(&event.under).any(|from| is_reached[*from]);
     }
     let last = trace.events.iter().rposition(is_marked).unwrap_or(trace.events.len());
-    let reached =
-        trace.events.iter().zip(is_reached).skip(last).filter(|(event, is)| *is && !is_constant(&event.values));
-    reached.map(|(event, _)| &event.values).collect()
+    let first = last + usize::from(is_of_use(mistake));
+    let reached = trace.events.iter().enumerate().skip(first);
+    let reached = reached.filter(|(number, event)| is_reached[*number] && !is_constant(&event.values));
+    reached.map(|(number, event)| ReachedValue { values: &event.values, is_made_there: is_computed[number] }).collect()
 }
 
 /// Whether a number goes that something is multiplied by, or that is added to it.

@@ -16,8 +16,8 @@ pub(in crate::diagnose) struct Repaired {
     pub texts: [String; 2],
     /// What its value should be at a place that shows it, and what it is there, where that says more than the mistake.
     pub numbers: Option<[String; 2]>,
-    /// The line of the rubric whose feature it is in, where that is known.
-    pub line: Option<String>,
+    /// The lines of the rubric whose features it is in, where that is known.
+    pub lines: Vec<String>,
     /// Whether it puts in its place what stands elsewhere.
     pub moves: bool,
     /// The variables of the right answer that are wrong with the mistake: the one that it is in, and those computed from it.
