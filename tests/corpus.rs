@@ -36,7 +36,7 @@ const SAMPLES: [(&str, usize); 31] = [
     ("interpolation", 63),
     ("lambert", 131),
     ("lamp", 22),
-    ("maps", 84),
+    ("maps", 85),
     ("per-pixel", 11),
     ("phong", 190),
     ("phong-shading", 164),
