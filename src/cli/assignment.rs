@@ -2,7 +2,7 @@
 
 use crate::language::Language;
 use crate::render::AdapterKind;
-use crate::sandbox::{DEADLINE_SECONDS, Policy};
+use crate::sandbox::Policy;
 use clap::{Args, Subcommand};
 #[cfg(feature = "service")]
 use std::net::SocketAddr;
@@ -88,7 +88,7 @@ pub struct PreviewArguments {
     #[arg(long, value_name = "ADDRESS:PORT", default_value = "127.0.0.1:0")]
     pub listen: SocketAddr,
     /// Seconds that a grading may take
-    #[arg(long, value_name = "SECONDS", default_value_t = DEADLINE_SECONDS)]
+    #[arg(long, value_name = "SECONDS", default_value_t = crate::sandbox::DEADLINE_SECONDS)]
     pub deadline: f64,
     /// What to do where this machine cannot close the sandbox around a grading: refuse, or grade and say what is open
     #[arg(long, value_enum, default_value_t, env = "GGRADE_SANDBOX")]
