@@ -100,22 +100,38 @@ impl PlacedSlip {
     }
 }
 
-/// `free`: what a number is, where one is looked for.
+/// Which slips are looked for.
+struct Sought<'a> {
+    /// In which functions.
+    is_part: &'a dyn Fn(&str) -> bool,
+    /// Only those of one kind, if any.
+    operator: Option<Operator>,
+    /// What a number is that a slip leaves open, where such slips are looked for.
+    free: Option<f64>,
+}
+
+impl Sought<'_> {
+    fn has(&self, operator: Operator) -> bool {
+        self.operator.is_none_or(|only| only == operator)
+    }
+}
+
+/// The slips that `choose` leaves of those that are found, each as a program.
 fn slips_of(
     source: &str,
     stage: Stage,
-    is_part: &dyn Fn(&str) -> bool,
-    free: Option<f64>,
-    is_wanted: &dyn Fn(&PlacedSlip) -> bool,
+    sought: &Sought,
+    choose: impl FnOnce(&mut Vec<PlacedSlip>),
 ) -> Result<Vec<ProgramSlip>, Refusal> {
     let preprocessed = text::preprocess(source)?;
     let mut items = parse::parse(&preprocessed.tokens)?;
-    if let Some(number) = free {
+    if let Some(number) = sought.free {
         let declared = text::preprocess(&format!("const float {FREE} = {number:?};"))?;
         items.splice(..0, parse::parse(&declared.tokens)?);
     }
-    let mut slips = found(&items, is_part, free.is_some());
-    slips.retain(is_wanted);
+    let is_part = sought.is_part;
+    let mut slips = found(&items, sought);
+    choose(&mut slips);
     slips.sort_by_key(PlacedSlip::operator);
     slips.truncate(MOST);
     let compiled = |slip: &PlacedSlip| {
@@ -134,8 +150,8 @@ fn slips_of(
     Ok(slips.iter().filter_map(compiled).collect())
 }
 
-/// `free`: whether a number that a slip puts in is left open.
-fn found(items: &[Item], is_part: &dyn Fn(&str) -> bool, free: bool) -> Vec<PlacedSlip> {
+fn found(items: &[Item], sought: &Sought) -> Vec<PlacedSlip> {
+    let is_part = sought.is_part;
     let mut items = items.to_vec();
     let mut slips = Vec::new();
     let mut of_statements = Vec::new();
@@ -170,7 +186,9 @@ fn found(items: &[Item], is_part: &dyn Fn(&str) -> bool, free: bool) -> Vec<Plac
                 statement += 1;
             },
             expression: &mut |own, met, names| {
-                let changes = changes_of(own, names, free).into_iter();
+                let mut changes = changes_of(own, names, sought.free.is_some());
+                changes.retain(|change| sought.has(change.operator));
+                let changes = changes.into_iter();
                 let part = |change: &Change| {
                     let [before, after] =
                         [&*own, &change.expression].map(|root| tree::ExpressionPlace::of(root, &change.path).own);
@@ -195,7 +213,7 @@ fn found(items: &[Item], is_part: &dyn Fn(&str) -> bool, free: bool) -> Vec<Plac
             },
         },
     );
-    slips.extend(of_statements);
+    slips.extend(of_statements.into_iter().filter(|slip| sought.has(slip.operator())));
     slips.extend(bounds);
     slips
 }

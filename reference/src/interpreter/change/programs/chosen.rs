@@ -1,6 +1,6 @@
 //! Slips of a program by what is asked of them.
 
-use super::{PlacedSlip, ProgramSlip, SlipMark, found, slips_of};
+use super::{PlacedSlip, ProgramSlip, SlipMark, Sought, found, slips_of};
 use crate::interpreter::change::{FREE, Operator, written};
 use crate::interpreter::outline::{self, Word};
 use crate::interpreter::{Program, Refusal, Stage, parse, text};
@@ -15,12 +15,12 @@ const ANY: f64 = 0.371;
 /// The program is none.
 pub fn slips_marked(source: &str, stage: Stage, mark: &SlipMark) -> Result<Vec<Program>, Refusal> {
     let free = mark.texts.1.as_ref().filter(|text| text.contains(FREE)).map(|_| ANY);
-    let marked = |is_it: &dyn Fn(&SlipMark) -> bool| -> Result<Vec<Program>, Refusal> {
-        let slips = slips_of(source, stage, &|_| true, free, &|slip| is_it(&slip.mark()))?;
-        Ok(slips.into_iter().map(|slip| slip.program).collect())
-    };
-    let same = marked(&|own| own == mark)?;
-    if same.is_empty() { marked(&|own| own.leaves_out_the_same(mark)) } else { Ok(same) }
+    let sought = Sought { is_part: &|_| true, operator: Some(mark.operator), free };
+    let slips = slips_of(source, stage, &sought, |slips| {
+        let is_there = slips.iter().any(|slip| slip.mark() == *mark);
+        slips.retain(|slip| if is_there { slip.mark() == *mark } else { slip.mark().leaves_out_the_same(mark) });
+    })?;
+    Ok(slips.into_iter().map(|slip| slip.program).collect())
 }
 
 impl SlipMark {
@@ -52,12 +52,11 @@ impl SlipMark {
 pub fn slips_written(source: &str, (of, name): (Operator, &str), text: &str) -> Result<Vec<SlipMark>, Refusal> {
     let items = parse::parse(&text::preprocess(source)?.tokens)?;
     let is_it = |slip: &PlacedSlip| match slip {
-        PlacedSlip::Expression(_, Some(given), change, _) => {
-            change.operator == of && **given == *name && written(&change.expression) == text
-        }
+        PlacedSlip::Expression(_, Some(given), change, _) => **given == *name && written(&change.expression) == text,
         _ => false,
     };
-    let slips = found(&items, &|function| function == "main", text.contains(FREE));
+    let free = text.contains(FREE).then_some(ANY);
+    let slips = found(&items, &Sought { is_part: &|function| function == "main", operator: Some(of), free });
     Ok(slips.iter().filter(|slip| is_it(slip)).map(PlacedSlip::mark).collect())
 }
 
@@ -66,7 +65,8 @@ pub fn slips_written(source: &str, (of, name): (Operator, &str), text: &str) -> 
 /// # Errors
 /// The program is none.
 pub fn program_slips(source: &str, stage: Stage, is_part: &dyn Fn(&str) -> bool) -> Result<Vec<ProgramSlip>, Refusal> {
-    slips_of(source, stage, is_part, None, &|slip| !matches!(slip, PlacedSlip::Branch(..)))
+    let sought = Sought { is_part, operator: None, free: None };
+    slips_of(source, stage, &sought, |slips| slips.retain(|slip| !matches!(slip, PlacedSlip::Branch(..))))
 }
 
 /// Those in `main` by which certain variables are given another value.
@@ -78,9 +78,8 @@ pub fn slips_of_variables(
     stage: Stage,
     is_one: &dyn Fn(&str) -> bool,
 ) -> Result<Vec<ProgramSlip>, Refusal> {
-    slips_of(source, stage, &|function| function == "main", None, &|slip| {
-        slip.parts().0.is_some_and(|name| is_one(name))
-    })
+    let sought = Sought { is_part: &|function| function == "main", operator: None, free: None };
+    slips_of(source, stage, &sought, |slips| slips.retain(|slip| slip.parts().0.is_some_and(|name| is_one(name))))
 }
 
 /// The program without each of its parts: a statement, a branch, an operand, a function around a value.
@@ -88,5 +87,6 @@ pub fn slips_of_variables(
 /// # Errors
 /// The program is none.
 pub fn program_without_parts(source: &str, stage: Stage) -> Result<Vec<ProgramSlip>, Refusal> {
-    slips_of(source, stage, &|_| true, None, &|slip| slip.operator() <= Operator::FallsThrough)
+    let sought = Sought { is_part: &|_| true, operator: None, free: None };
+    slips_of(source, stage, &sought, |slips| slips.retain(|slip| slip.operator() <= Operator::FallsThrough))
 }
