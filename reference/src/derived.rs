@@ -192,9 +192,9 @@ pub fn costs() -> impl Iterator<Item = (String, &'static crate::Text, f64)> {
     operators().iter().map(|said| (format!("{PREFIX}{}", said.id), &said.title, said.keeps))
 }
 
-/// What a derived mistake is, by the operator in its id: a repair may name one that no change of the solution makes.
-pub fn title(id: &str) -> Option<&'static crate::Text> {
-    read(id).map(|(said, _)| &said.title)
+/// What a derived mistake is called, by its id: a repair may name one that no change of the solution makes.
+pub(crate) fn title(assignment: &Assignment, id: &str) -> Option<crate::Text> {
+    read(id).map(|(said, name)| wording::title(assignment, said, name))
 }
 
 /// The definition that a derived mistake is in, by its id.

@@ -161,7 +161,7 @@ impl SummaryWriter {
     }
 
     fn mistakes(&mut self, class: &Class) {
-        let titled = |(id, count)| (plain(mistake_title(&class.assignment, id, self.language)), count);
+        let titled = |(id, count)| (plain(&mistake_title(&class.assignment, id, self.language)), count);
         let mistakes: Vec<_> = statistics::mistakes(class).into_iter().map(titled).collect();
         if mistakes.is_empty() {
             return;

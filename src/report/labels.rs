@@ -8,9 +8,8 @@ use crate::language::{Language, span};
 use reference::Assignment;
 
 /// The title of a mistake, as lists name it; its id where the assignment does not know it, as in an old report.
-pub(crate) fn mistake_title<'a>(assignment: &'a Assignment, id: &'a str, language: Language) -> &'a str {
-    let title = assignment.mistake(id).map(|mistake| &mistake.title).or_else(|| reference::derived::title(id));
-    title.map_or(id, |title| language.of(title))
+pub(crate) fn mistake_title(assignment: &Assignment, id: &str, language: Language) -> String {
+    assignment.title_of(id).map_or_else(|| id.to_owned(), |title| language.of(&title).to_owned())
 }
 
 /// The name of a line of the rubric; its id where the assignment does not know it.

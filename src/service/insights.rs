@@ -70,7 +70,7 @@ pub async fn of(state: &State) -> Result<Insights, Problem> {
     let class = people(state).await?.class;
     let refusals = state.store.refusals(&state.assignment.id).await?;
     let title = |id: &str| {
-        let of = |language| mistake_title(&state.assignment, id, language).to_owned();
+        let of = |language| mistake_title(&state.assignment, id, language);
         Text::new(of(Language::En), of(Language::Ja))
     };
     Ok(counting::gather(&class, &refusals, &title))

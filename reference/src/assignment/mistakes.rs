@@ -1,7 +1,8 @@
 //! The mistakes of an assignment: what they cost, and what an answer that has them computes.
 
 use super::{Assignment, RubricLine};
-use crate::derived::{Derived, is_derived};
+use crate::Text;
+use crate::derived::{self, Derived, is_derived};
 use crate::equation::EquationVariant;
 use crate::interpreter::Stage;
 use crate::interpreter::trace::{Site, What};
@@ -13,6 +14,12 @@ impl Assignment {
     pub fn mistake(&self, id: &str) -> Option<&Mistake> {
         let own = self.mistakes.iter().find(|m| m.id == id);
         own.or_else(|| self.deriving(id)?.assignment.mistake(id))
+    }
+
+    /// What a mistake is called. Of a derived one this is made from its id, for which no mistake has to be derived.
+    pub fn title_of(&self, id: &str) -> Option<Text> {
+        let own = self.mistakes.iter().find(|mistake| mistake.id == id);
+        own.map(|mistake| mistake.title.clone()).or_else(|| derived::title(self, id))
     }
 
     /// The homework with derived mistakes, where this is without them and `id` is that of one.

@@ -53,15 +53,17 @@ pub(super) fn of_repair(
     is_bound_by_zero: bool,
 ) -> Mistake {
     let name = name.unwrap_or(RESULT);
-    let quantity = match assignment.equation.index(name) {
-        Some(definition) => DefinitionName::of(assignment, definition),
-        None => DefinitionName::of_program(assignment, name),
-    };
+    let quantity = DefinitionName::called(assignment, name);
     let said = operator_of(operator);
     let only = alternative(0, said, &quantity, &quantity.named, is_bound_by_zero);
     let mistake = blank(assignment, said, name, &quantity);
     let [equation, look] = [only.equation.unwrap_or_default(), only.look.unwrap_or_default()];
     Mistake { equation, look, ..mistake }
+}
+
+/// What a mistake is called that an operator makes in what has this name.
+pub(super) fn title(assignment: &Assignment, said: &OperatorText, name: &str) -> Text {
+    DefinitionName::called(assignment, name).titled(said)
 }
 
 fn alternative(
@@ -87,14 +89,7 @@ fn blank(assignment: &Assignment, said: &OperatorText, name: &str, quantity: &De
     let keeps = assignment.rubric.iter().map(|line| (line.id.clone(), said.keeps));
     Mistake {
         id: format!("{PREFIX}{}-{name}", said.id),
-        // The solution's own names say nothing to a student.
-        title: quantity.called.as_ref().map_or_else(
-            || said.title.clone(),
-            |called| Text {
-                en: format!("{} ({})", said.title.en, called.en),
-                ja: format!("{} ({})", said.title.ja, called.ja),
-            },
-        ),
+        title: quantity.titled(said),
         keeps: keeps.collect(),
         forms: Vec::new(),
         variants: Vec::new(),
@@ -126,6 +121,23 @@ struct DefinitionName {
 }
 
 impl DefinitionName {
+    /// That with this name, a definition or a variable of a program.
+    fn called(assignment: &Assignment, name: &str) -> Self {
+        match assignment.equation.index(name) {
+            Some(definition) => Self::of(assignment, definition),
+            None => Self::of_program(assignment, name),
+        }
+    }
+
+    /// What a mistake in it is called. The solution's own names say nothing to a student.
+    fn titled(&self, said: &OperatorText) -> Text {
+        let Text { en, ja } = &said.title;
+        match &self.called {
+            Some(called) => Text { en: format!("{en} ({})", called.en), ja: format!("{ja} ({})", called.ja) },
+            None => said.title.clone(),
+        }
+    }
+
     fn of(assignment: &Assignment, definition: usize) -> Self {
         let name = &assignment.equation.definitions[definition].name;
         let own = assignment.names.get(name);
@@ -176,8 +188,7 @@ impl DefinitionName {
 
     fn seen(&self) -> Text {
         if self.is_everything {
-            let (en, ja) = ("The result is not the right one.", "結果が正しいものと違います。");
-            return Text { en: en.into(), ja: ja.into() };
+            return both("The result is not the right one.", "結果が正しいものと違います。");
         }
         Text {
             en: format!("The result is not the right one where {} counts.", self.plain.en),

@@ -231,7 +231,7 @@ fn row(
         })
     };
     let mistake_ids = report.map(|report| report.mistakes.clone()).unwrap_or_default();
-    let titled = |id: String| (mistake_title(&class.assignment, &id, class.language).to_owned(), id);
+    let titled = |id: String| (mistake_title(&class.assignment, &id, class.language), id);
     let advised = report.is_some_and(|report| !report.advice.is_empty());
     let is_said_already = (status == Standing::Correct && !advised) || !mistake_ids.is_empty();
     StudentRow {

@@ -77,7 +77,7 @@ impl SummaryWriter {
             |earned: &Option<EarnedPoints>| earned.as_ref().map_or("–".into(), |earned| number(earned.points));
         let mistake = |earned: &Option<EarnedPoints>| {
             let id = earned.as_ref().and_then(|earned| earned.mistake.as_deref());
-            id.map_or("–".into(), |id| plain(mistake_title(assignment, id, self.language)))
+            id.map_or("–".into(), |id| plain(&mistake_title(assignment, id, self.language)))
         };
         let (before, after) = (mistake(&line.before), mistake(&line.after));
         let why = if before == after { before } else { format!("{before} → {after}") };

@@ -38,7 +38,7 @@ impl HtmlRubricLine {
     fn of(assignment: &Assignment, report: &Report, line: &RubricLine, language: Language) -> Self {
         let labels = Labels::of(language);
         let shown = line.mistake.as_ref().filter(|_| report.hints > Hints::None);
-        let titled = |id: &String| (mistake_title(assignment, id, language).to_owned(), id.clone());
+        let titled = |id: &String| (mistake_title(assignment, id, language), id.clone());
         Self {
             id: line.id.clone(),
             mark: Mark::of(line.points, line.max_points),

@@ -46,7 +46,7 @@ impl ReportWriter {
             pad(&points, 7),
         );
         let used = 2 + column + 2 + BAR + 2 + columns(&points).max(7) + 2;
-        let title = |id| plain(mistake_title(assignment, id, self.language));
+        let title = |id| plain(&mistake_title(assignment, id, self.language));
         let mistake = line.mistake.as_deref().map(title).unwrap_or_default();
         if used + columns(&mistake) <= self.width {
             let mistake = self.paint(DIM, &mistake);

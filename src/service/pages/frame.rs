@@ -207,8 +207,9 @@ impl PageFrame {
     }
 
     /// The title of a mistake; its id where the homework does not know it.
-    pub(super) fn mistake_title<'a>(&'a self, id: &'a str) -> &'a str {
-        self.assignment.as_deref().map_or(id, |assignment| mistake_title(assignment, id, self.language))
+    pub(super) fn mistake_title(&self, id: &str) -> String {
+        let known = self.assignment.as_deref();
+        known.map_or_else(|| id.to_owned(), |assignment| mistake_title(assignment, id, self.language))
     }
 
     /// The signs that reports refer to.

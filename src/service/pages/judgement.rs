@@ -168,7 +168,7 @@ impl StaffForms {
                 .iter()
                 .map(|repair| ShownRepair {
                     place: place(&repair.file, repair.line.into()),
-                    title: mistake_title(&state.assignment, &repair.mistake, frame.language).to_owned(),
+                    title: mistake_title(&state.assignment, &repair.mistake, frame.language),
                     id: repair.mistake.clone(),
                     written: repair.written.clone(),
                     right: repair.right.clone(),

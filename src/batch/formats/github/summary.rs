@@ -97,7 +97,7 @@ fn row(entry: &ClassEntry, class: &Class) -> String {
                 format!("{}: {}", markdown(&place), rich(error.message.get(language)))
             }
             None => {
-                let title = |id: &String| markdown(mistake_title(&class.assignment, id, language));
+                let title = |id: &String| markdown(&mistake_title(&class.assignment, id, language));
                 report.mistakes.iter().map(title).collect::<Vec<_>>().join(" · ")
             }
         },

@@ -103,7 +103,7 @@ pub(super) fn mistakes(class: &Class, language: Language) -> Vec<MistakeCount> {
     let most = found.first().map_or(1, |(_, count)| *count) as f64;
     let of = |(id, count): (&str, usize)| MistakeCount {
         id: id.to_owned(),
-        title: mistake_title(&class.assignment, id, language).to_owned(),
+        title: mistake_title(&class.assignment, id, language),
         label: labels.get(id).filter(|labels| labels.len() <= MOST_LABELS).map_or(String::new(), |l| l.join(" · ")),
         count,
         percent: 100.0 * count as f64 / most,

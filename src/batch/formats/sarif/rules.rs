@@ -51,7 +51,7 @@ impl RuleTable {
         }
         for mistake in &class.assignment.mistakes {
             let title = mistake_title(&class.assignment, &mistake.id, language);
-            rules.add(&mistake.id, "Mistake", "warning", described(title, mistake, language));
+            rules.add(&mistake.id, "Mistake", "warning", described(&title, mistake, language));
         }
         for advice in &class.assignment.advice {
             let text = advice.message.fill(&[]);

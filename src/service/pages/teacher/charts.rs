@@ -158,7 +158,7 @@ pub(super) fn trends(frame: &PageFrame, people: &[&Person]) -> Vec<Trend> {
     let most = standing.values().copied().max().unwrap_or(0).max(1);
     let trend = |id: &str| {
         let people = standing.get(id).copied().unwrap_or(0);
-        let title = frame.mistake_title(id).to_owned();
+        let title = frame.mistake_title(id);
         Trend { id: id.to_owned(), title, people, percent: 100 * people / most, bars: spark(&handed_in[id], from, to) }
     };
     ids.into_iter().take(DRAWN).map(trend).collect()

@@ -155,7 +155,7 @@ impl StudentTable {
 
 /// Titles and ids of mistakes, in the reader's language.
 pub(super) fn titled(frame: &PageFrame, ids: &[String]) -> Vec<(String, String)> {
-    ids.iter().map(|id| (frame.mistake_title(id).to_owned(), id.clone())).collect()
+    ids.iter().map(|id| (frame.mistake_title(id), id.clone())).collect()
 }
 
 fn row(frame: &PageFrame, filter: &TableFilter, index: usize, person: &Person) -> StudentLine {
