@@ -85,6 +85,8 @@ fn in_turn(name: &str, kind: &Type, elements: Option<usize>) -> Vec<Vec<f64>> {
             };
             SHARES.iter().map(|shares| (0..count).map(|at| share(shares, at)).collect()).collect()
         }
+        // What is one number is a share of something; all alike would hide what is done with it.
+        Type::Vector(Scalar::Float, 1) => [0.15, 0.5, 0.9].map(|share| vec![share]).into(),
         _ => (0..3)
             .map(|nth| guess(&NameWords::of("color"), kind, Context { nth, ..Context::default() }).value)
             .collect(),
