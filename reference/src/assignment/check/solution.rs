@@ -150,6 +150,15 @@ impl<'a> CheckedSolution<'a> {
         named.or_else(|| stored.map(|stored| stored.cell - self.first)).ok_or_else(|| {
             let known = listed(self.definitions().iter().map(|cell| cell.name.as_str()));
             let place = place();
+            let names = self.definitions().iter().map(|cell| &cell.name);
+            let mut names = names.chain(self.draft.stored().iter().map(|stored| &stored.output));
+            if let Some(meant) = names.find(|known| known.eq_ignore_ascii_case(name)) {
+                let message = both(
+                    format!("there is no definition `{name}`: write `{meant}`"),
+                    format!("定義 `{name}` はありません。`{meant}` と書いてください"),
+                );
+                return error(place, message);
+            }
             if let Some(why) = &self.why_whole {
                 let AssignmentError { message, .. } = why;
                 let message = both(

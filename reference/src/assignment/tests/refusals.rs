@@ -102,6 +102,7 @@ fn regions_and_designs_speak_of_the_solution() {
         "rubric `ambient`: there is no region `dusk`, only `facing-away`, `ambient-only`, `diffuse-only`, \
          `highlight`, `highlight-behind`, `between`",
     );
+    says("axis = \"l\"", "axis = \"L\"", "probes: there is no definition `L`: write `l`");
     says("axis = \"l\"", "axis = \"nl\"", "probes: `nl` is a float, and has to be a vec3");
     says(
         "lobe = \"h\"",
