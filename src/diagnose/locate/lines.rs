@@ -1,6 +1,7 @@
 //! What stands on a line of the student's file.
 
 use crate::source::{self, Source};
+use reference::interpreter::outline;
 
 /// What is written on a line.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -38,7 +39,7 @@ fn macro_of(line: &str) -> Option<(String, String)> {
     Some((rest[..end].to_owned(), rest[end..].to_owned()))
 }
 
-/// Whether line `number` is one of the handed-out file, as it was.
+/// Whether line `number` is one of the handed-out file, as it was. The numbers of a constant may be written in another way.
 pub(in crate::diagnose) fn is_handed_out(source: &Source, number: u32, starter: &str) -> bool {
     let squeezed = |line: &str| line.split_whitespace().collect::<String>();
     let line = squeezed(source.line(number));
@@ -48,5 +49,14 @@ pub(in crate::diagnose) fn is_handed_out(source: &Source, number: u32, starter: 
         let other = squeezed(other);
         other == line || other.split("//").next() == Some(&code)
     };
-    !code.is_empty() && starter.lines().any(is_it)
+    let is_same_constant =
+        |other: &str| other.trim_start().starts_with("const") && values(other) == values(source.code_line(number));
+    !code.is_empty()
+        && (starter.lines().any(is_it) || code.starts_with("const") && starter.lines().any(is_same_constant))
+}
+
+/// The words and signs of a line, each number by its value.
+fn values(line: &str) -> Vec<String> {
+    let words = outline::words(line.split("//").next().unwrap_or_default()).into_iter().map(|word| word.text);
+    words.map(|word| word.parse::<f64>().map_or(word, |number| number.to_string())).collect()
 }

@@ -199,9 +199,11 @@ impl Repairable {
                 ProgramRepair { is_slip: true, .. } => (2, size, rank),
                 _ => (3, if is_call { (0, true) } else { size }, rank),
             };
-            // What is taken from the right answer as a whole says less than a slip of what is written.
-            let is_taken = !repair.is_slip && repair.mistake == Operator::OtherValue;
-            (size.0 <= LARGEST).then_some(((key, is_taken, repair.mistake), repair))
+            // What is taken from the right answer as a whole says less than a slip of what is written, and another value may be right by
+            // chance where other components are.
+            let is_other = repair.mistake == Operator::OtherValue;
+            let is_taken = !repair.is_slip && is_other;
+            (size.0 <= LARGEST).then_some(((key, is_taken, is_other, repair.mistake), repair))
         });
         let mut ranked: Vec<_> = ranked.collect();
         ranked.sort_by_key(|(key, _)| *key);

@@ -252,7 +252,10 @@ impl Ingredients {
             let is_alike = width >= count && (count > 1 || width == 1);
             if is_sum && is_alike {
                 found.push(named(Operator::AddendLeftOut, between(Binary::Add, bracketed(&fitting))));
-                found.push(named(Operator::AddendLeftOut, between(Binary::Subtract, bracketed(&fitting))));
+                // Nothing is left of what is taken from itself.
+                if written(&fitting) != written(own) {
+                    found.push(named(Operator::AddendLeftOut, between(Binary::Subtract, bracketed(&fitting))));
+                }
             }
             if is_addend {
                 found.push(named(Operator::FactorLeftOut, between(Binary::Multiply, bracketed(&fitting))));
