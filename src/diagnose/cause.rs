@@ -21,7 +21,7 @@ use reference::fit::{Alternatives, FeatureDefect, FeatureExplanation, TermJudgem
 use reference::mistake::{FoundMistake, Mistake};
 
 pub(super) use search::{cause, is_there, leaves_little};
-pub(super) use unexplained::with_features;
+use unexplained::with_features;
 pub use worth::{belongs, kept};
 
 const HARD_CODED: &str = "hard-coded";
@@ -74,6 +74,14 @@ pub(super) enum Cause {
 fn with_constants(assignment: &Assignment, constants: &[ChangedConstant]) -> Option<Assignment> {
     let changes: Vec<_> = constants.iter().map(|constant| (constant.name.as_str(), constant.found.clone())).collect();
     assignment.with_constants(&changes).ok()
+}
+
+/// Each term as far as it stands alone, or shows by itself.
+pub(super) fn terms_alone(evidence: &Evidence<'_>) -> Vec<TermJudgement> {
+    let Evidence { assignment, probes, .. } = *evidence;
+    let samples: Vec<[f64; 3]> = evidence.samples.iter().map(Sample::colour_f64).collect();
+    let terms = judge_terms(assignment, probes, &samples, COLOUR_TOLERANCE);
+    with_features(&Alternatives::new(assignment, probes), &samples, terms)
 }
 
 impl Cause {
@@ -139,19 +147,14 @@ impl Cause {
     /// The cause, or that parts of a right answer are not there at all: a mistake that makes nothing of them would show the same, and
     /// leave them their points.
     pub(super) fn unless_absent(self, evidence: &Evidence<'_>, shape: bool) -> Self {
-        let Evidence { assignment, probes, .. } = *evidence;
+        let assignment = evidence.assignment;
         if !matches!(self, Self::Known { .. } | Self::Parts(_) | Self::Repaired(_)) {
             return self;
         }
         let ids = self.ids();
         let left =
             |line: &RubricLine| ids.iter().map(|id| kept(assignment, line, shape, &self, id)).fold(1.0, f64::min);
-        let samples: Vec<[f64; 3]> = evidence.samples.iter().map(Sample::colour_f64).collect();
-        let terms = || {
-            let terms = judge_terms(assignment, probes, &samples, COLOUR_TOLERANCE);
-            with_features(&Alternatives::new(assignment, probes), &samples, terms)
-        };
-        let terms = std::cell::LazyCell::new(terms);
+        let terms = std::cell::LazyCell::new(|| terms_alone(evidence));
         let is_right = |line: &str| terms.iter().any(|term| term.line == line && term.is_right());
         let absent = inside::absent_lines(evidence, &is_right);
         // What a mistake of the table leaves of a line that is not there is the lecturer's affair, but not all of it, nor of several.
@@ -170,6 +173,16 @@ impl Cause {
         }
         let terms = terms.clone();
         Self::Unexplained { terms, findings, absent }
+    }
+
+    /// The cause, or that it is not known: a mistake that nobody wrote down and that costs nothing does not make an answer wrong.
+    pub(super) fn unless_free(self, evidence: &Evidence<'_>, shape: bool) -> Self {
+        let ids = self.ids();
+        let costs = |line: &RubricLine| ids.iter().any(|id| kept(evidence.assignment, line, shape, &self, id) < 1.0);
+        if ids.is_empty() || self.is_written() || evidence.assignment.rubric.iter().any(costs) {
+            return self;
+        }
+        Self::unexplained(terms_alone(evidence), inside::find(evidence))
     }
 
     /// Whether the text computes right what a derived mistake would have wrong, where only all together is seen.

@@ -33,8 +33,9 @@ use solution::CheckedSolution;
 use std::sync::Arc;
 use variants::Variants;
 
-/// What is said of features.
-const OF_FEATURES: [&str; 2] = ["part-missing", "part-scaled"];
+/// What is said of features, the first also of terms.
+const OF_FEATURES: [&str; 2] = [PART_MISSING, "part-scaled"];
+const PART_MISSING: &str = "part-missing";
 
 /// What is said of a fragment stage that throws everything away.
 const OF_FRAGMENTS: &str = "nothing-drawn";
@@ -81,7 +82,9 @@ pub(super) fn assignment(
     let mistakes = std::mem::take(&mut m.mistake);
     let mut mistakes = mistakes::all(mistakes, &m.rubric, &mut solution, &constants, &variants, place_at)?;
     if features.iter().all(Option::is_none) {
-        mistakes.retain(|mistake| !OF_FEATURES.contains(&mistake.id.as_str()));
+        // A sum may lack a term somewhere.
+        let is_of_terms = |mistake: &Mistake| mistake.id == PART_MISSING && terms.iter().any(Option::is_some);
+        mistakes.retain(|mistake| !OF_FEATURES.contains(&mistake.id.as_str()) || is_of_terms(mistake));
     }
     if files.iter().all(|file| file.stage != Stage::Fragment) {
         mistakes.retain(|mistake| mistake.id != OF_FRAGMENTS);

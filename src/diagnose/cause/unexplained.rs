@@ -88,9 +88,13 @@ pub(super) fn unexplained(
     {
         return cause;
     }
-    // Several terms that are not added are several mistakes, though one change of the text adds them all.
+    // Several terms that are not added are several mistakes, though one change of the text adds them all. What is written over is lost,
+    // and what writes over it is right.
     let is_one = |cause: &Cause| matches!(cause, Cause::Parts(own) if own.parts.len() == 1);
-    if let Some(cause) = lacking(assignment, &findings).filter(|cause| repairs.is_empty() || !is_one(cause)) {
+    let is_lost = || findings.iter().any(|finding| finding.flaw == Flaw::Overwrites);
+    if let Some(cause) =
+        lacking(assignment, &findings).filter(|cause| repairs.is_empty() || is_lost() || !is_one(cause))
+    {
         return cause;
     }
     let terms = match judge_factor(assignment, probes, samples, COLOUR_TOLERANCE) {
@@ -110,9 +114,16 @@ pub(super) fn unexplained(
     Cause::Repaired(repairs)
 }
 
-/// That parts are missing: a sum at the one place of a mistake lacks terms, each of which a line judges, and is right otherwise.
+/// That parts are missing: a sum at the one place of a mistake lacks terms, each of which a line judges, and is right otherwise; or
+/// nothing stands where one of these terms should.
 pub(super) fn lacking(assignment: &Assignment, findings: &[Finding]) -> Option<Cause> {
-    let [Finding { flaw: Flaw::Lacks(_) | Flaw::Overwrites, touches: missing, .. }] = findings else { return None };
+    let [Finding { flaw, touches, quantity, found, is_whole, .. }] = findings else { return None };
+    let is_nothing = !is_whole && !found.is_empty() && found.iter().take(3).all(|number| *number == 0.0);
+    let missing = match (flaw, quantity) {
+        (Flaw::Lacks(_) | Flaw::Overwrites, _) => touches.as_slice(),
+        (Flaw::Value, Some(term)) if is_nothing => std::slice::from_ref(term),
+        _ => return None,
+    };
     let judges = |name: &String| assignment.rubric.iter().position(|line| line.judges == *name);
     let lines: Vec<usize> = missing.iter().map(judges).collect::<Option<_>>()?;
     let parts: Vec<_> = lines.into_iter().map(|line| (line, FeatureDefect::Missing)).collect();
@@ -120,7 +131,7 @@ pub(super) fn lacking(assignment: &Assignment, findings: &[Finding]) -> Option<C
 }
 
 /// The judgements; of a line with a feature it is judged where that shows.
-pub(in crate::diagnose) fn with_features(
+pub(super) fn with_features(
     alternatives: &Alternatives<'_>,
     samples: &[[f64; 3]],
     mut terms: Vec<TermJudgement>,

@@ -74,6 +74,7 @@ fn of_colour(assignment: &Assignment, terms: &[TermJudgement], repaired: &Repair
     // What cannot be judged by itself is not known to be right.
     let is_right = |line: &&RubricLine| terms.iter().any(|term| term.line == line.id && term.is_right());
     let is_colour = |line: &&RubricLine| !assignment.judges_position(line);
+    let lines = || assignment.rubric.iter().filter(is_colour);
     // Of some lines those that are wrong by themselves, or all where none is.
     let wrong_of = |lines: Vec<&RubricLine>| -> Vec<String> {
         let is_any = lines.iter().any(is_wrong);
@@ -84,6 +85,11 @@ fn of_colour(assignment: &Assignment, terms: &[TermJudgement], repaired: &Repair
         && let Some(turns) = (0..assignment.rubric.len()).find(|line| assignment.judges_turns(*line))
     {
         return vec![assignment.rubric[turns].id.clone()];
+    }
+    // What is written over is lost, and what writes over it is right.
+    let lost = || lines().filter(|line| is_wrong(line) && !repaired.lines.contains(&line.id));
+    if repaired.keeps_what_was_there() && lost().next().is_some() {
+        return lost().map(|line| line.id.clone()).collect();
     }
     // What a fixed stage reads has its name, whatever stands for it in a right answer.
     let is_read = |name: &&str| {
@@ -111,8 +117,10 @@ fn of_colour(assignment: &Assignment, terms: &[TermJudgement], repaired: &Repair
         return wrong_of(about);
     }
     let is_spoilt = |line: &&RubricLine| repaired.touches.contains(&line.judges) && !assignment.is_beside_terms(line);
-    let lines = || assignment.rubric.iter().filter(is_colour);
-    let choices: [Vec<&RubricLine>; 3] = [
+    let is_all = |line: &&RubricLine| assignment.equation.index(&line.judges) == Some(assignment.equation.colour());
+    let choices: [Vec<&RubricLine>; 4] = [
+        // What it is in itself may be right where it shows alone.
+        lines().filter(|line| !is_all(line) && name == Some(line.judges.as_str())).collect(),
         lines().filter(|line| !is_right(line) && is_spoilt(line)).collect(),
         lines().filter(is_wrong).collect(),
         lines().filter(is_spoilt).collect(),

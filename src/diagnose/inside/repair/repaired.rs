@@ -41,6 +41,15 @@ impl Repaired {
         is_name || right.is_empty() || right.iter().any(|name| written.contains(name))
     }
 
+    /// Whether it keeps what the text writes over: `=` stands there for `+=` or the like.
+    pub fn keeps_what_was_there(&self) -> bool {
+        let [written, right] =
+            self.texts.each_ref().map(|text| text.split_once('=').map(|(to, from)| (to.trim(), from)));
+        let is_operator = |rest: &str| ["+", "-", "*", "/"].contains(&rest.trim());
+        matches!((written, right), (Some((to, from)), Some((other, same)))
+            if from == same && other.strip_prefix(to).is_some_and(is_operator))
+    }
+
     /// Whether another whole number belongs there, or a variable in its place.
     pub fn is_of_an_element(&self) -> bool {
         let [written, right] = &self.texts;
