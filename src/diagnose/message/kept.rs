@@ -1,14 +1,14 @@
 //! What is said of a line of the rubric that costs nothing.
 
 use crate::compare::COLOUR_TOLERANCE;
-use crate::diagnose::cause::with_features;
+use crate::diagnose::cause::terms_alone;
 use crate::diagnose::columns::is_colour;
 use crate::diagnose::{Cause, Evidence, addends};
 use crate::language::Text;
-use crate::render::Sample;
 use glam::DVec3;
 use reference::assignment::RubricLine;
-use reference::fit::{Alternatives, Footprints, TermJudgement, judge_terms};
+use reference::derived::is_derived;
+use reference::fit::{Alternatives, Footprints, TermJudgement};
 use std::cell::OnceCell;
 
 /// What is known of such lines of a wrong answer, looked up once it is asked for.
@@ -35,11 +35,16 @@ impl KeptLines {
         if *self.is_finite_nowhere.get_or_init(|| addends::is_finite_nowhere(evidence)) {
             return unseen();
         }
-        // Mistakes that are known explain all that is seen.
-        if matches!(cause, Cause::Known { .. }) {
+        // Mistakes that are known explain all that is seen. One that nobody wrote down may hide a feature that it costs nothing.
+        let is_open = match cause {
+            Cause::Known { found, .. } => {
+                evidence.assignment.is_told_by_features() && found.iter().any(|found| is_derived(&found.id))
+            }
+            _ => matches!(cause, Cause::Unexplained { .. } | Cause::Repaired(_)),
+        };
+        if matches!(cause, Cause::Known { .. }) && !is_open {
             return agreement(evidence, line);
         }
-        let is_open = matches!(cause, Cause::Unexplained { .. } | Cause::Repaired(_));
         match self.judgement(evidence, line) {
             None if is_open => never_alone(),
             _ if is_open && self.is_never_alone(evidence, line) => never_alone(),
@@ -79,13 +84,8 @@ impl KeptLines {
 
     /// How far a line is right where it shows, wherever the mistake stands; none of one that is not seen by itself.
     fn judgement(&self, evidence: &Evidence<'_>, line: &RubricLine) -> Option<&TermJudgement> {
-        let sought = || {
-            let Evidence { assignment, probes, .. } = *evidence;
-            let samples: Vec<[f64; 3]> = evidence.samples.iter().map(Sample::colour_f64).collect();
-            let terms = judge_terms(assignment, probes, &samples, COLOUR_TOLERANCE);
-            with_features(&Alternatives::new(assignment, probes), &samples, terms)
-        };
-        self.terms.get_or_init(sought).iter().find(|term| term.line == line.id)
+        let terms = self.terms.get_or_init(|| terms_alone(evidence));
+        terms.iter().find(|term| term.line == line.id)
     }
 }
 
