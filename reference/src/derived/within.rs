@@ -91,6 +91,18 @@ impl Derived {
         };
         let is_seen = |own: &AcceptedAnswer| !is_same(&self.assignment.computed_by(own, &probes), &shown, of);
         let features: Vec<FeatureProgram<'_>> = self.feature_programs(of).filter(|(_, own)| is_seen(own)).collect();
+        // What a slip writes over is lost with it.
+        let is_lost = |(_, own): &&FeatureProgram<'_>| match self.slipped(&own.texts, (stage, &mark), &probes) {
+            Slipped::Shown(without) => is_same(&without, &wrong, of),
+            Slipped::Gone | Slipped::Unknown => false,
+        };
+        let lost: Vec<usize> = match mark.writes_over() && owner.is_none() {
+            true => features.iter().filter(is_lost).map(|(line, _)| *line).collect(),
+            false => Vec::new(),
+        };
+        if !lost.is_empty() {
+            return Some(lost);
+        }
         let judged: Vec<(FeatureProgram<'_>, Left)> =
             features.iter().map(|own| (*own, left(&own.1.texts, own.1))).collect();
         let left_with = |which: Left| -> Vec<FeatureProgram<'_>> {
@@ -122,8 +134,18 @@ impl Derived {
                 || without_both().is_some_and(|texts| left(&texts, a.1) == Left::NoDifference)
         };
         let mut pairs = pairs.filter(|(a, b)| is_theirs(a.0.0) && is_theirs(b.0.0) && is_nothing_left(a, b));
-        let (((a, _), _), ((b, _), _)) = pairs.next()?;
+        let Some((((a, _), _), ((b, _), _))) = pairs.next() else { return self.only_about(found, &mark, &features) };
         pairs.next().is_none().then(|| vec![*a, *b])
+    }
+
+    /// The only line that is about what a mistake is in, and in the text of whose feature its slip stands.
+    fn only_about(&self, found: &FoundMistake, mark: &SlipMark, features: &[FeatureProgram<'_>]) -> Option<Vec<usize>> {
+        let name = definition(&found.id)?;
+        let is_about =
+            |line: usize| self.assignment.lines_about(name).any(|own| own.id == self.assignment.rubric[line].id);
+        let mut own = features.iter().filter(|(line, own)| is_about(*line) && stands_in(&mark.texts.0, own));
+        let (line, _) = own.next()?;
+        own.next().is_none().then(|| vec![*line])
     }
 
     /// The line whose feature goes by those of all others.

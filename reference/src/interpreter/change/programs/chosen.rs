@@ -5,6 +5,9 @@ use crate::interpreter::change::{FREE, Operator, written};
 use crate::interpreter::outline::{self, Word};
 use crate::interpreter::{Program, Refusal, Stage, parse, text};
 
+/// What makes another value of the one that a variable has.
+const COMPOUND: [&str; 4] = ["+=", "-=", "*=", "/="];
+
 /// A number where a slip may have any.
 const ANY: f64 = 0.371;
 
@@ -24,6 +27,14 @@ pub fn slips_marked(source: &str, stage: Stage, mark: &SlipMark) -> Result<Vec<P
 }
 
 impl SlipMark {
+    /// Whether what a variable holds is lost, which is read without the slip.
+    pub(crate) fn writes_over(&self) -> bool {
+        let (own, Some(instead)) = &self.texts else { return false };
+        let is_compound = |text: &str| COMPOUND.iter().any(|operator| text.contains(operator));
+        let reads = |text: &str| outline::words(text).iter().any(|word| Some(&word.text) == self.name.as_ref());
+        is_compound(own) && !is_compound(instead) || reads(own) && !reads(instead)
+    }
+
     fn leaves_out_the_same(&self, other: &Self) -> bool {
         let left_out = self.left_out();
         left_out.is_some() && self.operator == other.operator && self.name == other.name && left_out == other.left_out()
@@ -89,4 +100,22 @@ pub fn slips_of_variables(
 pub fn program_without_parts(source: &str, stage: Stage) -> Result<Vec<ProgramSlip>, Refusal> {
     let sought = Sought { is_part: &|_| true, operator: None, free: None };
     slips_of(source, stage, &sought, |slips| slips.retain(|slip| slip.operator() <= Operator::FallsThrough))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Operator, SlipMark};
+
+    #[test]
+    fn what_writes_over_a_variable_no_longer_reads_it() {
+        let writes_over = |own: &str, instead: &str| {
+            let name = Some("colour".to_owned());
+            let texts = (own.to_owned(), Some(instead.to_owned()));
+            SlipMark { operator: Operator::OtherOperator, name, texts }.writes_over()
+        };
+        assert!(writes_over("colour += w * lamp.colour", "colour = w * lamp.colour"));
+        assert!(writes_over("colour + glow", "glow"));
+        assert!(!writes_over("colour += glow", "colour -= glow"), "it is still made of what was there");
+        assert!(!writes_over("base + glow", "base - glow"), "it never was");
+    }
 }
