@@ -157,11 +157,9 @@ pub(super) fn guess(name: &NameWords, kind: &Type, context: Context) -> Guess {
     }
 }
 
-/// A turn about z, and a small step where there is a column for it: without it, and with another one, all is elsewhere. What is between
-/// two of them is no turn.
+/// A turn about z, and a small step where there is a column for it: without it, and with another one, all is elsewhere.
 fn matrix(columns: usize, rows: usize, nth: usize) -> Vec<f64> {
-    const ANGLES: [f64; 4] = [0.3, -0.5, 0.05, -0.25];
-    let angle = ANGLES[nth % ANGLES.len()];
+    let angle: f64 = [0.3, -0.5, 0.05, -0.25][nth % 4];
     let step = [0.1, -0.05, 0.08].map(|step| step * (1.0 + (nth % 4) as f64));
     let number = |column: usize, row: usize| match (column, row) {
         (0, 0) | (1, 1) => angle.cos(),

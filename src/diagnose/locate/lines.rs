@@ -49,10 +49,9 @@ pub(in crate::diagnose) fn is_handed_out(source: &Source, number: u32, starter: 
         let other = squeezed(other);
         other == line || other.split("//").next() == Some(&code)
     };
-    let is_same_constant =
-        |other: &str| other.trim_start().starts_with("const") && values(other) == values(source.code_line(number));
-    !code.is_empty()
-        && (starter.lines().any(is_it) || code.starts_with("const") && starter.lines().any(is_same_constant))
+    let constant = code.starts_with("const").then(|| values(source.code_line(number)));
+    let is_same_constant = |other: &str| constant.as_ref().is_some_and(|own| values(other) == *own);
+    !code.is_empty() && starter.lines().any(|other| is_it(other) || is_same_constant(other))
 }
 
 /// The words and signs of a line, each number by its value.

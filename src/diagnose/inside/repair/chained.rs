@@ -7,7 +7,6 @@ use super::{
 use crate::compare::COLOUR_TOLERANCE;
 use crate::diagnose::Evidence;
 use crate::diagnose::cause::{is_there, leaves_little};
-use crate::diagnose::columns::is_constant;
 use crate::diagnose::inside::chain::Link;
 use crate::diagnose::inside::search::{Search, is_right};
 use crate::diagnose::inside::{Place, TracedProgram, find};
@@ -15,9 +14,7 @@ use crate::diagnose::trials::StageChanges;
 use crate::render::Sample;
 use glam::DVec3;
 use reference::fit::{Alternatives, programs_showing};
-use reference::interpreter::trace::What;
-use reference::interpreter::{Ingredients, Operator, ProgramRepair, Stage};
-use reference::traced::Bench;
+use reference::interpreter::Ingredients;
 
 /// What mends several mistakes together.
 #[derive(Default)]
@@ -83,46 +80,14 @@ impl Search<'_, '_> {
 
     /// Whether what makes all right does so at every probe. What is seen with other mistakes is known at the chosen ones only, and is
     /// looked at without the bounds of a colour, which hide much of it.
-    pub(super) fn is_verified(
-        &self,
-        attempt: &RepairAttempt,
-        (stage, repair): &RepairStep,
-        program: &TracedProgram,
-    ) -> bool {
+    pub(super) fn is_verified(&self, attempt: &RepairAttempt, step: &RepairStep, program: &TracedProgram) -> bool {
+        let (stage, repair) = step;
         let Some([_, unclamped]) = &attempt.part else {
-            return self.holds_everywhere(program) && !self.is_by_chance(attempt, (*stage, repair));
+            return self.holds_everywhere(program) && !self.is_by_chance(attempt, step);
         };
         // What is bounded is bounded alike only where both can be traced.
         let traced = attempt.text(*stage).and_then(|text| program.with(*stage, text.traced(repair)?));
         let seen = traced.and_then(|program| self.unclamped(&program, &StageChanges::default()));
         seen.is_some_and(|seen| is_right(unclamped, &seen, self.count))
-    }
-
-    /// Whether another value, or its direction, is right by chance only: a function makes of it what is the same everywhere, as of any
-    /// unit vector its length.
-    fn is_by_chance(&self, attempt: &RepairAttempt, (stage, repair): (Stage, &ProgramRepair)) -> bool {
-        if !matches!(repair.mistake, Operator::OtherValue | Operator::NormalizeLeftOut) {
-            return false;
-        }
-        let traced = attempt.text(stage).and_then(|text| attempt.program.with(stage, text.traced(repair)?));
-        let traces = traced.as_ref().and_then(|program| {
-            let mut bench = Bench::new(self.assignment, program, self.places, self.in_quads, FUEL_OF_TRACE)?;
-            Some((program.stage(stage).sites(), bench.trace(&StageChanges::default())?.1))
-        });
-        let Some((sites, Some(trace))) = traces.map(|(sites, mut traces)| (sites, traces[stage as usize].take()))
-        else {
-            return false;
-        };
-        let mut is_made = vec![false; trace.events.len()];
-        for (number, event) in trace.events.iter().enumerate() {
-            is_made[number] =
-                sites[event.site].line == ProgramRepair::MARK || event.from.iter().any(|from| is_made[*from]);
-            let varies = |from: &usize| is_made[*from] && !is_constant(&trace.events[*from].values);
-            let is_of_function = matches!(sites[event.site].what, What::Call(_));
-            if is_of_function && is_constant(&event.values) && event.from.iter().any(varies) {
-                return true;
-            }
-        }
-        false
     }
 }

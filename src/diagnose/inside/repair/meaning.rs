@@ -14,18 +14,16 @@ use reference::equation::DISCARDED;
 use reference::interpreter::trace::{Event, Site, Trace, What};
 use reference::interpreter::{Binary, DISCARD, Operator, Program, ProgramRepair, Scalar, Stage};
 use reference::mistake::Mistake;
-use reference::traced::{Bench, Seen};
+use reference::traced::{Bench, Seen, TracedProgram};
 
 /// So many values that come of a change are looked for in the solution.
 const MOST_REACHED: usize = 200;
 
 impl Search<'_, '_> {
     /// What is known of a change.
-    pub(super) fn repaired(&self, attempt: &RepairAttempt, (stage, repair): &RepairStep) -> Option<Repaired> {
-        let marked = attempt.program.with(*stage, attempt.text(*stage)?.traced(repair)?)?;
-        let (seen, mut traces) = Bench::new(self.assignment, &marked, self.places, self.in_quads, FUEL_OF_TRACE)?
-            .trace(&StageChanges::default())?;
-        let trace = traces[*stage as usize].take()?;
+    pub(super) fn repaired(&self, attempt: &RepairAttempt, step: &RepairStep) -> Option<Repaired> {
+        let (marked, seen, trace) = self.marked(attempt, step)?;
+        let (stage, repair) = step;
         let program = marked.stage(*stage);
         let added = repair.added.as_deref().and_then(|name| self.meant_by(*stage, program, &trace, name));
         let judged = |name: &String| self.assignment.rubric.iter().any(|line| line.judges == *name);
@@ -60,6 +58,32 @@ impl Search<'_, '_> {
             lines: if is_of_loop { Vec::new() } else { self.lines_that_it_is_in(program, &trace, repair.mistake) },
             moves: self.stands_elsewhere(&attempt.seen) && self.is_in_place(&seen),
             touches: definition.map_or_else(Vec::new, |name| self.quantities.spoilt_by(*stage, &name)),
+        })
+    }
+
+    /// The program with a change on the line [`ProgramRepair::MARK`], what is seen of it, and the values of the stage that is changed.
+    fn marked(&self, attempt: &RepairAttempt, (stage, repair): &RepairStep) -> Option<(TracedProgram, Seen, Trace)> {
+        let marked = attempt.program.with(*stage, attempt.text(*stage)?.traced(repair)?)?;
+        let mut bench = Bench::new(self.assignment, &marked, self.places, self.in_quads, FUEL_OF_TRACE)?;
+        let (seen, mut traces) = bench.trace(&StageChanges::default())?;
+        let trace = traces[*stage as usize].take()?;
+        Some((marked, seen, trace))
+    }
+
+    /// Whether another value, or its direction, is right by chance only: a function makes of it what is the same everywhere, as of any
+    /// unit vector its length.
+    pub(super) fn is_by_chance(&self, attempt: &RepairAttempt, step: &RepairStep) -> bool {
+        let (stage, repair) = step;
+        if !matches!(repair.mistake, Operator::OtherValue | Operator::NormalizeLeftOut) {
+            return false;
+        }
+        let Some((marked, _, trace)) = self.marked(attempt, step) else { return false };
+        let program = marked.stage(*stage);
+        let is_computed = computed_from_the_mark(program, &trace);
+        let varies = |from: &usize| is_computed[*from] && !is_constant(&trace.events[*from].values);
+        trace.events.iter().any(|event| {
+            let is_of_function = matches!(program.sites()[event.site].what, What::Call(_));
+            is_of_function && is_constant(&event.values) && event.from.iter().any(varies)
         })
     }
 
@@ -216,14 +240,27 @@ fn is_count(sites: &[Site], site: usize) -> bool {
     is_whole && sites.iter().any(|user| user.operands.contains(&site) && counts(&user.what))
 }
 
+/// Whether a value is what was changed.
+fn is_marked(program: &Program, event: &Event) -> bool {
+    program.sites()[event.site].line == ProgramRepair::MARK
+}
+
+/// Whether each value is what was changed, or is computed from it.
+fn computed_from_the_mark(program: &Program, trace: &Trace) -> Vec<bool> {
+    let mut is_computed: Vec<bool> = trace.events.iter().map(|event| is_marked(program, event)).collect();
+    for (number, event) in trace.events.iter().enumerate() {
+        is_computed[number] |= event.from.iter().any(|from| is_computed[*from]);
+    }
+    is_computed
+}
+
 /// What was changed, and what is computed from it or decided by it, in this order; none that is the same everywhere. Another value is
 /// the wrong one in what is made of it.
 fn reached_values<'t>(program: &Program, trace: &'t Trace, mistake: Operator) -> Vec<ReachedValue<'t>> {
-    let is_marked = |event: &Event| program.sites()[event.site].line == ProgramRepair::MARK;
-    let mut is_computed: Vec<bool> = trace.events.iter().map(is_marked).collect();
-    let mut is_reached = is_computed.clone();
+    let is_marked = |event: &Event| is_marked(program, event);
+    let is_computed = computed_from_the_mark(program, trace);
+    let mut is_reached: Vec<bool> = trace.events.iter().map(is_marked).collect();
     for (number, event) in trace.events.iter().enumerate() {
-        is_computed[number] |= event.from.iter().any(|from| is_computed[*from]);
         is_reached[number] |= event.from.iter().chain(&event.under).any(|from| is_reached[*from]);
     }
     let last = trace.events.iter().rposition(is_marked).unwrap_or(trace.events.len());
