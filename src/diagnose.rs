@@ -24,6 +24,7 @@ use advice::Beyond;
 pub use cause::UNEXPLAINED;
 use cause::{Cause, belongs, cause, kept};
 pub use fresh::Fresh;
+pub use inside::Recorded;
 use message::Facts;
 use reference::Assignment;
 use reference::equation::DISCARDED;
@@ -58,6 +59,8 @@ pub struct Evidence<'a> {
     pub undefined: Option<u32>,
     /// The program, to be run step by step; none where it has something that the interpreter does not know.
     pub traced: Option<&'a TracedProgram>,
+    /// What it computes at some of the probes, beside what the right answer computes.
+    pub recorded: &'a Recorded,
     /// The probes that advice comes from.
     pub beyond: &'a [Beyond],
     /// How much the messages help.

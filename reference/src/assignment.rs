@@ -20,6 +20,7 @@ use crate::pipeline::Pipeline;
 use crate::probes::{Probing, Region};
 use crate::scene::{Moment, Scene, Vertex};
 use crate::text::both;
+use crate::traced::TracedProgram;
 use crate::typeset::Typeset;
 use crate::{Folder, Text, Value, manifest};
 pub use error::AssignmentError;
@@ -86,6 +87,7 @@ pub struct Assignment {
     pub(crate) probing: Probing,
     /// Made once for all that differ in nothing it is made of.
     pub(crate) derived: Arc<OnceLock<Derived>>,
+    pub(crate) traced: Arc<OnceLock<Option<TracedProgram>>>,
 }
 
 /// The mistakes that are told by the way of an answer across edges, by their ids.

@@ -52,6 +52,18 @@ pub struct Seen {
     pub positions: Vec<DVec4>,
 }
 
+impl Assignment {
+    /// The program of the right answer, compiled when it is first asked for. `None` where it cannot be run.
+    pub fn traced_solution(&self) -> Option<&TracedProgram> {
+        let compiled = || {
+            let texts: Vec<(Stage, &str)> =
+                self.files.iter().map(|file| (file.stage, file.solution.text.as_str())).collect();
+            TracedProgram::new(self, &texts).ok()
+        };
+        self.traced.get_or_init(compiled).as_ref()
+    }
+}
+
 impl TracedProgram {
     /// The program of these texts, with the homework's own stages beside them.
     ///
@@ -72,16 +84,6 @@ impl TracedProgram {
             Reads::Varyings | Reads::Outputs => Some(Pipeline::link(&vertex, &fragment, None)?),
         };
         Ok(Self { vertex, fragment, handed_in, pipeline })
-    }
-
-    /// The program of the right answer.
-    ///
-    /// # Errors
-    /// Why it cannot be run.
-    pub fn solution(assignment: &Assignment) -> Result<Self, Text> {
-        let texts: Vec<(Stage, &str)> =
-            assignment.files.iter().map(|file| (file.stage, file.solution.text.as_str())).collect();
-        Self::new(assignment, &texts)
     }
 
     /// The same program with another one in the place of a stage. `None` where the two stages do not go together.

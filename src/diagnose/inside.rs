@@ -17,6 +17,7 @@ mod given;
 mod interpolated;
 mod own_values;
 mod quantities;
+mod recording;
 mod repair;
 mod search;
 mod walk;
@@ -25,21 +26,22 @@ mod words;
 use super::Evidence;
 use super::columns::is_colour;
 use super::locate::{Located, MistakeOrigin, is_handed_out};
-use super::trials::{FUEL_OF_TRACE, StageChanges, Trials, chosen, is_drawn, place};
+use super::trials::{FUEL_OF_TRACE, Trials};
 use crate::compare::POSITION_TOLERANCE;
 pub(super) use abrupt::decision;
 pub(super) use given::{absent_lines, ignores_all, looks_up};
 use glam::DVec3;
 pub(super) use own_values::own_values;
 use quantities::Quantities;
+pub use recording::Recorded;
+use recording::Recording;
 use reference::Assignment;
 use reference::interpreter::trace::{Site, Trace, What};
 use reference::interpreter::{Binary, Stage};
 use reference::mistake::FoundMistake;
-use reference::traced::{Bench, Place, Seen, TracedProgram};
+use reference::traced::{Place, Seen, TracedProgram};
 pub(super) use repair::Repaired;
 use search::{Search, is_right};
-use std::cell::OnceCell;
 pub(super) use walk::made_of;
 pub(super) use words::overwrites;
 
@@ -96,7 +98,12 @@ pub(super) enum Flaw {
 
 /// Looks for the places that have to be mended for what is seen to be right.
 pub(super) fn find(evidence: &Evidence<'_>) -> Vec<Finding> {
-    find_in(evidence, evidence.assignment)
+    let recording = evidence.recorded.of(evidence);
+    let findings = |recording: &Recording| {
+        let found = || find_in(evidence, evidence.assignment);
+        recording.findings.get_or_init(found).clone()
+    };
+    recording.map(findings).unwrap_or_default()
 }
 
 /// The same in the homework with other constants.
@@ -107,12 +114,10 @@ pub(super) fn find_in(evidence: &Evidence<'_>, assignment: &Assignment) -> Vec<F
 /// The same, and the changes of the text by which all becomes right, where there are such. `goes_on`: whether several are looked for,
 /// where one is not enough.
 pub(super) fn account(evidence: &Evidence<'_>, goes_on: &mut dyn FnMut() -> bool) -> (Vec<Finding>, Vec<Repaired>) {
-    let both = |search: &mut Search<'_, '_>| {
-        let findings = search.findings();
-        let repairs = search.repairs(&findings, goes_on);
-        (findings, repairs)
-    };
-    within(evidence, evidence.assignment, &[], &[], both).unwrap_or_default()
+    let findings = find(evidence);
+    let repairs = within(evidence, evidence.assignment, &[], &[], |search| search.repairs(&findings, goes_on))
+        .unwrap_or_default();
+    (findings, repairs)
 }
 
 /// The places that have to be mended, and the one slip of the text without which all is right, where there is one.
@@ -207,48 +212,34 @@ fn within<T: Default>(
     look: impl FnOnce(&mut Search<'_, '_>) -> T,
 ) -> Option<T> {
     let theirs = evidence.traced?;
-    let variant = if others.is_empty() { None } else { assignment.variant(others) };
-    let solution = match (&variant, others) {
-        (Some(_), _) | (None, []) => TracedProgram::solution(assignment).ok()?,
-        (None, others) => assignment.traced_with(others)?,
+    let own;
+    let is_usual = others.is_empty() && more.is_empty() && std::ptr::eq(assignment, evidence.assignment);
+    let recording = match is_usual {
+        true => evidence.recorded.of(evidence)?,
+        false => {
+            own = Recording::of(evidence, assignment, others, more)?;
+            &own
+        }
     };
-    let chosen = chosen(evidence);
-    if chosen.is_empty() {
-        return None;
+    if is_right(&recording.wanted, &recording.own, recording.own.colours.len()) {
+        return Some(T::default());
     }
-    let places: Vec<Place<'_>> = chosen.iter().map(|at| place(evidence, *at)).chain(more.iter().copied()).collect();
-    let in_quads = theirs.needs_quads(assignment) || solution.needs_quads(assignment);
-    let (own, traces) =
-        Bench::new(assignment, theirs, &places, in_quads, FUEL_OF_TRACE)?.trace(&StageChanges::default())?;
-    if !is_drawn(evidence, &chosen, &own.colours) {
-        return None;
-    }
-    let (mut wanted, right_traces) =
-        Bench::new(assignment, &solution, &places, in_quads, FUEL_OF_TRACE)?.trace(&StageChanges::default())?;
-    let mut quantities = Quantities::of(&solution, right_traces);
-    if let Some(variant) = &variant {
-        wanted.colours = quantities.replace(assignment, variant, &places, if in_quads { 4 } else { 1 })?;
-    }
-    let trials = Trials::new(assignment, theirs, &places, in_quads)?;
-    let features = OnceCell::new();
+    let places = recording.places(evidence, more);
     let mut search = Search {
         evidence,
         assignment,
         places: &places,
-        in_quads,
+        in_quads: recording.in_quads,
         theirs,
-        traces: &traces,
-        own: &own,
-        wanted: &wanted,
-        quantities: &quantities,
-        trials,
+        traces: &recording.traces,
+        own: &recording.own,
+        wanted: &recording.wanted,
+        quantities: &recording.quantities,
+        trials: Trials::new(assignment, theirs, &places, recording.in_quads)?,
         count: places.len(),
         base: Default::default(),
-        chain: Default::default(),
-        features: &features,
+        chain: &recording.chain,
+        features: &recording.features,
     };
-    if is_right(&wanted, &own, places.len()) {
-        return Some(T::default());
-    }
     Some(look(&mut search))
 }

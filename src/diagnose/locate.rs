@@ -82,25 +82,31 @@ impl<'a> TracedProbes<'a> {
     pub fn new(evidence: &Evidence<'a>, assignment: &'a Assignment) -> Option<Self> {
         let chosen = chosen(evidence);
         let places = chosen.iter().map(|at| place(evidence, *at)).collect();
-        let (points, colours) = Self::of(evidence, assignment, places)?;
+        let (points, colours) = Self::of(evidence.source, evidence.traced?, assignment, places)?;
         is_drawn(evidence, &chosen, &colours).then_some(points)
     }
 
     /// Runs it under a circumstance of advice. `program`: the text with the circumstance's constants.
     pub fn beyond(evidence: &Evidence<'a>, beyond: &'a Beyond, program: &'a TracedProgram) -> Option<Self> {
-        let evidence = Evidence { traced: Some(program), ..*evidence };
-        Some(Self::of(&evidence, &beyond.assignment, beyond.places())?.0)
+        Some(Self::of(evidence.source, program, &beyond.assignment, beyond.places())?.0)
     }
 
-    fn of(evidence: &Evidence<'a>, assignment: &'a Assignment, places: Vec<Place<'a>>) -> Option<(Self, Vec<DVec3>)> {
+    fn of(
+        source: &'a Source,
+        program: &'a TracedProgram,
+        assignment: &'a Assignment,
+        places: Vec<Place<'a>>,
+    ) -> Option<(Self, Vec<DVec3>)> {
         let stage = assignment.equation.reads().stage()?;
-        let program = evidence.traced.filter(|_| !places.is_empty())?;
+        if places.is_empty() {
+            return None;
+        }
         let in_quads = program.needs_quads(assignment);
         let mut bench = Bench::new(assignment, program, &places, in_quads, FUEL_OF_TRACE)?;
         let (seen, mut traces) = bench.trace(&StageChanges::default())?;
         let trace = traces[stage as usize].take()?;
         let trials = Trials::new(assignment, program, &places, in_quads)?;
-        let (source, sites) = (evidence.source, program.stage(stage).sites());
+        let sites = program.stage(stage).sites();
         let each = if in_quads { 4 } else { 1 };
         Some((Self { assignment, source, stage, sites, trace, trials, places, each }, seen.colours))
     }

@@ -2,7 +2,7 @@
 
 use super::{Grader, own_values};
 use crate::compare::{self, COLOUR_TOLERANCE, ExpectedFrame};
-use crate::diagnose::{self, Diagnosis, Evidence, Fresh, Hints};
+use crate::diagnose::{self, Diagnosis, Evidence, Fresh, Hints, Recorded};
 use crate::diagnostic::Diagnostic;
 use crate::language::Text;
 use crate::render::{Rendering, Sample};
@@ -57,6 +57,7 @@ impl Grader {
             undefined: rendering.undefined,
             across: crossings.map(|crossings| (crossings, across)),
             traced: traced.as_ref(),
+            recorded: &Recorded::default(),
             beyond: &self.beyond,
             hints,
         };
@@ -113,7 +114,9 @@ impl Grader {
                 let own_values = answer.reading.as_deref().and_then(|reading| {
                     let probes = evidence.assignment.probes_of(answer, evidence.probes);
                     let assignment = &reading.assignment;
-                    let evidence = Evidence { assignment, frames: &read.frames, probes: &probes, ..*evidence };
+                    let recorded = &Recorded::default();
+                    let evidence =
+                        Evidence { assignment, frames: &read.frames, probes: &probes, recorded, ..*evidence };
                     followed(&evidence, expected, &read)
                 });
                 ReadHandIn { own_values, ..read }
@@ -145,9 +148,13 @@ fn read_as(
     let of_answer = assignment.probes_of(answer, fresh.probes);
     let fresh = Fresh { probes: &of_answer, ..fresh };
     // Advice and the explanation are about the solution, which this answer is not.
-    let evidence = Evidence { frames: &frames, probes: &probes, fresh, beyond: &[], ..*evidence };
+    let (recorded, recorded_as_read) = <(Recorded, Recorded)>::default();
+    let evidence = Evidence { frames: &frames, probes: &probes, fresh, beyond: &[], recorded: &recorded, ..*evidence };
     let reading = answer.reading.as_deref();
-    let read = |reading: &Reading| diagnose::diagnose(&Evidence { assignment: &reading.assignment, ..evidence });
+    let read = |reading: &Reading| {
+        let (assignment, recorded) = (&reading.assignment, &recorded_as_read);
+        diagnose::diagnose(&Evidence { assignment, recorded, ..evidence })
+    };
     let is_likely = || least.is_some_and(|least| agreeing(&evidence) >= least);
     let read = || reading.filter(|_| is_likely()).map(read);
     let mut diagnosis = diagnose::agreement(&evidence).or_else(read)?;

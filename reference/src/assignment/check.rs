@@ -128,6 +128,7 @@ pub(super) fn assignment(
         time,
         probing,
         derived: Arc::default(),
+        traced: Arc::default(),
     };
     about::complete(&mut assignment);
     probing::lobe_is_known(&assignment)?;

@@ -7,7 +7,6 @@ use crate::equation::EquationVariant;
 use crate::interpreter::Stage;
 use crate::interpreter::trace::{Site, What};
 use crate::mistake::{FoundMistake, Mistake, MistakeForm};
-use crate::traced::TracedProgram;
 
 impl Assignment {
     /// The mistake with this id.
@@ -75,7 +74,7 @@ impl Assignment {
     /// How often the solution gives a variable a value.
     fn times_given(&self, variable: &str) -> usize {
         let gives = |site: &&Site| matches!(&site.what, What::Assign { name, .. } if name == variable);
-        let Ok(solution) = TracedProgram::solution(self) else { return 0 };
+        let Some(solution) = self.traced_solution() else { return 0 };
         let stages = [Stage::Vertex, Stage::Fragment].into_iter();
         stages.map(|stage| solution.stage(stage).sites().iter().filter(gives).count()).sum()
     }

@@ -40,12 +40,12 @@ impl Assignment {
         given: &dyn Fn(&[usize], &ProbeSet) -> ProbeSet,
     ) -> Vec<Progress> {
         let mut found = vec![Progress::default(); ways.len()];
-        let programs = TracedProgram::solution(self).ok().zip(TracedProgram::new(extended, texts).ok());
+        let programs = self.traced_solution().zip(TracedProgram::new(extended, texts).ok());
         let Some((solution, theirs)) = programs else { return found };
         let few = few.thinned(PROBES);
         let in_quads = solution.needs_quads(self) || theirs.needs_quads(extended);
-        let Some(right) = traces(self, &solution, &few, in_quads) else { return found };
-        let (named, looked_up) = (named(&solution, &right), looked_up(&solution, &right));
+        let Some(right) = traces(self, solution, &few, in_quads) else { return found };
+        let (named, looked_up) = (named(solution, &right), looked_up(solution, &right));
         let each = (LANES / few.probes.len().max(1)).max(1);
         for (ways, found) in ways.chunks(each).zip(found.chunks_mut(each)) {
             let Some(traces) = traces(extended, &theirs, &given(ways, &few), in_quads) else { continue };

@@ -80,7 +80,7 @@ impl Search<'_, '_> {
             }
             let trials = Trials::new(self.assignment, self.theirs, self.places, self.in_quads)?;
             let chain = OnceCell::new();
-            let after = Search { traces: &traces, own: &own, base: base.clone(), trials, chain, ..*self };
+            let after = Search { traces: &traces, own: &own, base: base.clone(), trials, chain: &chain, ..*self };
             let link = after.next_link(&mut tries)?;
             base[link.mend.stage as usize].push(link.mend.change());
             found.push(link);

@@ -43,10 +43,10 @@ pub(in crate::diagnose) fn looks_up(evidence: &Evidence<'_>) -> bool {
 /// is right where it shows beside no other.
 pub(in crate::diagnose) fn absent_lines(evidence: &Evidence<'_>, is_right: &dyn Fn(&str) -> bool) -> Vec<String> {
     let assignment = evidence.assignment;
-    let (Some(theirs), Ok(solution)) = (traced(evidence), TracedProgram::solution(assignment)) else {
+    let (Some(theirs), Some(solution)) = (traced(evidence), assignment.traced_solution()) else {
         return Vec::new();
     };
-    let Some(solution) = runs(evidence, &solution).map(|runs| (&solution, runs)) else { return Vec::new() };
+    let Some(solution) = runs(evidence, solution).map(|runs| (solution, runs)) else { return Vec::new() };
     let stages = [Stage::Vertex, Stage::Fragment];
     let is_known =
         |own: &ProgramVariable| assignment.interface.uniforms.iter().any(|known| root(&known.path) == root(&own.name));

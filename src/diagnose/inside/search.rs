@@ -33,7 +33,7 @@ pub(super) struct Search<'s, 'a> {
     /// What is changed already.
     pub base: StageChanges,
     /// The places of several mistakes, once they were looked for.
-    pub chain: OnceCell<Chain>,
+    pub chain: &'s OnceCell<Chain>,
     /// What the lines' features are made of, once it was asked for.
     pub features: &'s OnceCell<Vec<FeatureWay>>,
 }

@@ -55,12 +55,12 @@ fn apart(evidence: &Evidence<'_>, places: &[Place<'_>]) -> Option<Vec<f64>> {
         return None;
     }
     let (theirs, assignment) = (evidence.traced?, evidence.assignment);
-    let solution = TracedProgram::solution(assignment).ok()?;
+    let solution = assignment.traced_solution()?;
     let in_quads = theirs.needs_quads(assignment) || solution.needs_quads(assignment);
     let seen = |program: &TracedProgram| {
         Some(Bench::new(assignment, program, places, in_quads, FUEL_OF_TRACE)?.with(&Default::default())?.colours)
     };
-    let (own, right) = (seen(theirs)?, seen(&solution)?);
+    let (own, right) = (seen(theirs)?, seen(solution)?);
     let apart = |(own, right): (&DVec3, &DVec3)| match is_colour(*right, *own) {
         true => 0.0,
         // What is no number is as far off as can be.

@@ -9,7 +9,7 @@ use crate::diagnose::Evidence;
 use crate::diagnose::cause::{is_there, leaves_little};
 use crate::diagnose::inside::chain::Link;
 use crate::diagnose::inside::search::{Search, is_right};
-use crate::diagnose::inside::{Place, TracedProgram, find};
+use crate::diagnose::inside::{Place, Recorded, TracedProgram, find};
 use crate::diagnose::trials::StageChanges;
 use crate::render::Sample;
 use glam::DVec3;
@@ -63,7 +63,9 @@ impl Search<'_, '_> {
             colour: colour.extend(1.0).as_vec4().to_array(),
         };
         let samples: Vec<Sample> = seen.colours.iter().zip(&seen.positions).map(sample).collect();
-        let evidence = Evidence { samples: &samples, traced: Some(&attempt.program), ..*self.evidence };
+        let recorded = Recorded::default();
+        let evidence =
+            Evidence { samples: &samples, traced: Some(&attempt.program), recorded: &recorded, ..*self.evidence };
         let colours: Vec<[f64; 3]> = samples.iter().map(Sample::colour_f64).collect();
         let alternatives = Alternatives::new(assignment, probes);
         let is_there = is_there(&evidence);
