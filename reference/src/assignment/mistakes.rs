@@ -54,21 +54,28 @@ impl Assignment {
     }
 
     /// Whether one line of the rubric alone is about a variable of the solution, which is given one value, so that the line is about all
-    /// that it is. What is given several values one after the other may have those of other lines.
+    /// that it is. What is given several values one after the other may have those of other lines, but for a line that no feature tells.
     pub fn is_of_one_line(&self, variable: &str) -> bool {
-        self.lines_about(variable).count() == 1 && !self.is_of_several(variable)
+        let is_about = |line: &RubricLine| line.variables.iter().any(|own| own == variable);
+        let mut about = self.rubric.iter().zip(&self.features).filter(|(line, _)| is_about(line));
+        let Some((_, feature)) = about.next() else { return false };
+        about.next().is_none() && (!self.is_of_several(variable) || feature.is_none() && !self.is_colour(variable))
     }
 
     /// The lines that a mistake in a variable costs, where nothing else tells. Of one that is given several values, the only line that is
     /// about it may be about one of them.
     pub fn lines_owning(&self, variable: &str) -> Vec<&RubricLine> {
         let about: Vec<&RubricLine> = self.lines_about(variable).collect();
-        if about.len() == 1 && self.is_of_several(variable) { Vec::new() } else { about }
+        if about.len() == 1 && !self.is_of_one_line(variable) { Vec::new() } else { about }
     }
 
     /// Whether a variable may have something of several lines: it is given several values, or is all that is seen.
     fn is_of_several(&self, variable: &str) -> bool {
-        self.times_given(variable) > 1 || self.equation.index(variable) == Some(self.equation.colour)
+        self.times_given(variable) > 1 || self.is_colour(variable)
+    }
+
+    fn is_colour(&self, variable: &str) -> bool {
+        self.equation.index(variable) == Some(self.equation.colour)
     }
 
     /// How often the solution gives a variable a value.

@@ -1,7 +1,7 @@
 //! Within which features a mistake is: those of the lines without which nothing is left of the mistake.
 
 use super::programs::FIRST;
-use super::{Derived, definition, read};
+use super::{Derived, RESULT, definition, read};
 use crate::accepted::{AcceptedAnswer, Computed};
 use crate::assignment::{HandedIn, RubricLine};
 use crate::feature::Feature;
@@ -57,11 +57,12 @@ impl Derived {
     }
 
     fn around(&self, found: &FoundMistake, of: Shown) -> Option<Vec<usize>> {
+        let (stage, mark) = self.slip(found)?;
         // The only line that is about the variable, which is about all of it.
-        let name = definition(&found.id).filter(|name| of == Shown::Colour && self.assignment.is_of_one_line(name));
+        let name = definition(&found.id).filter(|name| *name != RESULT).or(mark.name.as_deref());
+        let name = name.filter(|name| of == Shown::Colour && self.assignment.is_of_one_line(name));
         let is_about = |line: &RubricLine, name: &str| line.variables.iter().any(|own| own == name);
         let owner = name.and_then(|name| self.assignment.rubric.iter().position(|line| is_about(line, name)));
-        let (stage, mark) = self.slip(found)?;
         // What is counted by in the head of a loop is a matter of its turns.
         let counts = |line: &usize| self.assignment.loop_words(*line).any(|word| Some(&word) == mark.name.as_ref());
         if let Some(line) = (0..self.assignment.rubric.len()).find(counts) {
@@ -108,6 +109,10 @@ impl Derived {
         let left_with = |which: Left| -> Vec<FeatureProgram<'_>> {
             judged.iter().filter(|(_, left)| *left == which).map(|(own, _)| *own).collect()
         };
+        // A line that no feature tells is told by what it is about.
+        if let Some(owner) = owner.filter(|owner| self.assignment.features[*owner].is_none()) {
+            return Some(vec![owner]);
+        }
         // What stands in the text of a feature is of that, whatever else happens to hide it.
         let mut around = left_with(Left::Gone);
         if around.is_empty() {
