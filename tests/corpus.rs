@@ -29,7 +29,7 @@ const SAMPLES: [(&str, usize); 31] = [
     ("fog", 13),
     ("ggsample06", 1468),
     ("ggsample11-map", 87),
-    ("ggsample11-pcf", 63),
+    ("ggsample11-pcf", 64),
     ("ggsample11-projection", 58),
     ("ggsample11-vsm", 60),
     ("gouraud-point-light", 180),
