@@ -2,7 +2,7 @@
 
 use super::{FEWEST, agrees};
 use crate::Assignment;
-use crate::accepted::AcceptedAnswer;
+use crate::accepted::Computed;
 use crate::mistake::FoundMistake;
 use crate::probes::ProbeSet;
 use glam::{DVec3, DVec4};
@@ -12,6 +12,85 @@ const MOST_OF_TASTE: f64 = 0.4;
 
 /// A position for each probe, and whether the sample there has it.
 type IsThere<'e> = dyn Fn(usize, DVec4) -> bool + 'e;
+
+/// The probes of so many groups are asked first: most mistakes that are tried fail there.
+const FIRST: usize = 3;
+
+/// What a program shows at probes, and what samples are not that.
+struct Compared {
+    own: Vec<Computed>,
+    contradicted: Vec<bool>,
+    /// Where taste decides what is shown.
+    is_open: Vec<bool>,
+}
+
+impl Compared {
+    fn of(
+        assignment: &Assignment,
+        found: &[FoundMistake],
+        probes: &ProbeSet,
+        is_shown: &dyn Fn(usize, &Computed) -> bool,
+    ) -> Option<Self> {
+        let own = assignment.computed_by(&assignment.together(found, None)?, probes);
+        let contradicted = own.iter().enumerate().map(|(at, own)| !is_shown(at, own)).collect();
+        Some(Self { is_open: vec![false; own.len()], own, contradicted })
+    }
+
+    /// What lies between what is shown and what is shown with something in it that is not judged, contradicts nothing.
+    fn spare_taste(
+        &mut self,
+        assignment: &Assignment,
+        found: &[FoundMistake],
+        probes: &ProbeSet,
+        is_between: &dyn Fn(usize, [DVec3; 2], DVec4) -> bool,
+        tolerance: f64,
+    ) {
+        for taste in &assignment.unjudged {
+            let Some(program) = assignment.together(found, Some(taste)) else { continue };
+            for (at, (other, _)) in assignment.computed_by(&program, probes).into_iter().enumerate() {
+                let (colour, position) = self.own[at];
+                if !agrees(colour, other, tolerance) {
+                    self.is_open[at] = true;
+                    self.contradicted[at] &= !is_between(at, [colour.min(other), colour.max(other)], position);
+                }
+            }
+        }
+    }
+}
+
+/// What samples show.
+#[derive(Clone, Copy)]
+struct Samples<'e> {
+    colours: &'e [DVec3],
+    /// Whether a sample's position is a given one.
+    is_there: &'e IsThere<'e>,
+    tolerance: f64,
+}
+
+impl Samples<'_> {
+    fn show(&self, at: usize, (colour, position): &Computed) -> bool {
+        agrees(*colour, self.colours[at], self.tolerance) && (self.is_there)(at, *position)
+    }
+
+    fn lie_between(&self, at: usize, [least, most]: [DVec3; 2], position: DVec4) -> bool {
+        let colour = self.colours[at];
+        let is_between = colour.cmpge(least - self.tolerance).all() && colour.cmple(most + self.tolerance).all();
+        is_between && (self.is_there)(at, position)
+    }
+
+    /// Whether some of the first probes contradict these mistakes whatever the taste.
+    fn contradict_at_first(&self, assignment: &Assignment, found: &[FoundMistake], probes: &ProbeSet) -> bool {
+        let (places, first) = probes.part(FIRST);
+        let Some(mut compared) = Compared::of(assignment, found, &first, &|at, own| self.show(places[at], own)) else {
+            return true;
+        };
+        if compared.contradicted.contains(&true) {
+            let is_between = |at: usize, colours, position| self.lie_between(places[at], colours, position);
+            compared.spare_taste(assignment, found, &first, &is_between, self.tolerance);
+        }
+        compared.contradicted.contains(&true)
+    }
+}
 
 /// Where samples are not what the solution with these mistakes shows, nor between that and what it shows with something in it that
 /// is not judged. `None` where the mistakes are no programs that go together.
@@ -25,35 +104,16 @@ pub(super) fn contradicted_but_for_taste(
     is_there: &IsThere<'_>,
     tolerance: f64,
 ) -> Option<Vec<bool>> {
-    let colours = |program: &AcceptedAnswer| -> Vec<DVec3> {
-        assignment.computed_by(program, probes).into_iter().map(|(colour, _)| colour).collect()
-    };
-    let own = assignment.computed_by(&assignment.together(found, None)?, probes);
-    let is_shown = |at: usize, colour: DVec3| agrees(colour, samples[at], tolerance);
-    let mut contradicted: Vec<bool> = own
-        .iter()
-        .enumerate()
-        .map(|(at, (colour, position))| !(is_shown(at, *colour) && is_there(at, *position)))
-        .collect();
-    let count = contradicted.iter().filter(|contradicted| **contradicted).count();
+    let of_samples = Samples { colours: samples, is_there, tolerance };
+    let mut compared = Compared::of(assignment, found, probes, &|at, own| of_samples.show(at, own))?;
+    let count = compared.contradicted.iter().filter(|contradicted| **contradicted).count();
     if count == 0 || count as f64 > MOST_OF_TASTE * samples.len() as f64 {
-        return Some(contradicted);
+        return Some(compared.contradicted);
     }
-    let mut is_open = vec![false; samples.len()];
-    for taste in &assignment.unjudged {
-        let Some(program) = assignment.together(found, Some(taste)) else { continue };
-        for (at, other) in colours(&program).into_iter().enumerate() {
-            let (colour, position) = own[at];
-            if agrees(colour, other, tolerance) {
-                continue;
-            }
-            is_open[at] = true;
-            let (least, most) = (colour.min(other) - tolerance, colour.max(other) + tolerance);
-            let is_between = samples[at].cmpge(least).all() && samples[at].cmple(most).all();
-            contradicted[at] &= !(is_between && is_there(at, position));
-        }
-    }
+    let is_between = |at: usize, colours, position| of_samples.lie_between(at, colours, position);
+    compared.spare_taste(assignment, found, probes, &is_between, tolerance);
     // Where nothing is open the mistake has to show, or else anything would be explained.
+    let Compared { own, contradicted, is_open } = compared;
     let is_telling =
         |at: &usize| !is_open[*at] && !contradicted[*at] && !agrees(probes.probes[*at].colour, own[*at].0, tolerance);
     let is_told = (0..samples.len()).filter(is_telling).count() >= FEWEST;
@@ -69,6 +129,8 @@ pub(super) fn is_explained(
     is_there: &IsThere<'_>,
     tolerance: f64,
 ) -> bool {
-    contradicted_but_for_taste(assignment, found, probes, samples, is_there, tolerance)
-        .is_some_and(|contradicted| !contradicted.contains(&true))
+    let of_samples = Samples { colours: samples, is_there, tolerance };
+    !of_samples.contradict_at_first(assignment, found, probes)
+        && contradicted_but_for_taste(assignment, found, probes, samples, is_there, tolerance)
+            .is_some_and(|contradicted| !contradicted.contains(&true))
 }
