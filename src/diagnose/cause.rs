@@ -193,15 +193,10 @@ impl Cause {
             && definitions.any(|name| inside::computes(evidence, name))
     }
 
-    /// Whether it is a derived mistake in what several lines of the rubric go into: the sum without two of its terms is two mistakes.
+    /// Whether it is a derived mistake in what several lines of the rubric go into, and leaves none of them as they are.
     fn is_of_several_terms(&self, assignment: &Assignment) -> bool {
-        let Self::Known { found, .. } = self else { return false };
-        let equation = &assignment.equation;
-        let place = |name: &str| equation.index(name);
-        let goes_into = |of| {
-            assignment.rubric.iter().filter_map(|line| place(&line.judges)).filter(move |on| equation.depends(of, *on))
-        };
-        found.iter().filter_map(|found| place(definition(&found.id)?)).any(|of| goes_into(of).nth(1).is_some())
+        let Self::Known { found, spared, .. } = self else { return false };
+        spared.is_empty() && spared::is_of_several_terms(assignment, found)
     }
 
     /// Whether the homework says what it is worth.

@@ -154,7 +154,7 @@ impl DefinitionName {
             named: if is_symbol || plain.en.starts_with('⟨') { plain.clone() } else { named },
             plain,
             called: own.and_then(LectureName::in_few_words).or_else(line),
-            is_known: said.is_some() || is_judged(assignment, definition),
+            is_known: said.is_some() || judging(assignment, definition).next().is_some(),
             is_everything: false,
         }
     }
@@ -241,13 +241,16 @@ fn own_name() -> Text {
 }
 
 /// The only line that judges a definition, or that is about it.
-fn line_of(assignment: &Assignment, definition: usize) -> Option<&RubricLine> {
-    fn only<'a>(mut lines: impl Iterator<Item = &'a RubricLine>) -> Option<&'a RubricLine> {
-        lines.next().filter(|_| lines.next().is_none())
-    }
-    let equation = &assignment.equation;
-    let judging = assignment.rubric.iter().filter(|line| equation.index(&line.judges) == Some(definition));
-    only(judging).or_else(|| only(assignment.lines_about(&equation.definitions[definition].name)))
+fn line_of<'a>(assignment: &'a Assignment, definition: usize) -> Option<&'a RubricLine> {
+    let only = |lines: Vec<&'a RubricLine>| if let [line] = lines[..] { Some(line) } else { None };
+    let about = || assignment.lines_about(&assignment.equation.definitions[definition].name).collect();
+    only(judging(assignment, definition).collect()).or_else(|| only(about()))
+}
+
+/// The lines that judge a definition, but for those that judge a feature of all that is seen, beside its terms.
+fn judging(assignment: &Assignment, definition: usize) -> impl Iterator<Item = &RubricLine> {
+    let judges_it = move |line: &&RubricLine| assignment.equation.index(&line.judges) == Some(definition);
+    assignment.rubric.iter().filter(judges_it).filter(|line| !assignment.is_beside_terms(line))
 }
 
 fn part_called(line: &RubricLine) -> Text {
@@ -257,10 +260,6 @@ fn part_called(line: &RubricLine) -> Text {
 /// In Japanese quotation marks. A label that is a name of the program's has them already.
 fn quoted(label: &str) -> String {
     if label.starts_with('「') { label.to_owned() } else { format!("「{label}」") }
-}
-
-fn is_judged(assignment: &Assignment, definition: usize) -> bool {
-    assignment.rubric.iter().any(|line| assignment.equation.index(&line.judges) == Some(definition))
 }
 
 /// A value by its name in the solution, where it is called anything.

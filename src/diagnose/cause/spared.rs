@@ -8,7 +8,7 @@ use crate::render::Sample;
 use glam::DVec3;
 use reference::Assignment;
 use reference::assignment::RubricLine;
-use reference::derived::is_derived;
+use reference::derived::{definition, is_derived};
 use reference::equation::{DISCARDED, Reads};
 use reference::fit::TermJudgement;
 use reference::interpreter::DISCARD;
@@ -121,8 +121,11 @@ pub fn elsewhere(assignment: &Assignment, findings: &[Finding]) -> Option<Vec<St
 /// line's feature; none where these are all.
 pub fn by_text(evidence: &Evidence<'_>, found: &[FoundMistake]) -> Vec<String> {
     let assignment = evidence.assignment;
-    if !assignment.is_told_by_features() || !found.iter().all(|found| is_derived(&found.id)) {
+    if !found.iter().all(|found| is_derived(&found.id)) {
         return Vec::new();
+    }
+    if !assignment.is_told_by_features() {
+        return if is_of_several_terms(assignment, found) { right_where_they_show(evidence) } else { Vec::new() };
     }
     let costs = |line: &&RubricLine| found.iter().any(|found| assignment.keeps(found, line) < 1.0);
     let costly: Vec<&RubricLine> = assignment.rubric.iter().filter(costs).collect();
@@ -138,6 +141,36 @@ pub fn by_text(evidence: &Evidence<'_>, found: &[FoundMistake]) -> Vec<String> {
     }
     let spared = computed_of(evidence, &costly);
     if costly.iter().all(|id| spared.iter().any(|own| own == id)) { Vec::new() } else { spared }
+}
+
+/// Whether one is in what several lines of the rubric go into: the sum without two of its terms is two mistakes.
+pub fn is_of_several_terms(assignment: &Assignment, found: &[FoundMistake]) -> bool {
+    let equation = &assignment.equation;
+    let place = |name: &str| equation.index(name);
+    let goes_into = |of| {
+        assignment.rubric.iter().filter_map(|line| place(&line.judges)).filter(move |on| equation.depends(of, *on))
+    };
+    found.iter().filter_map(|found| place(definition(&found.id)?)).any(|of| goes_into(of).nth(1).is_some())
+}
+
+/// The ids of the lines whose terms show at probes that are right, and at none that is wrong: a mistake in their sum leaves them as they
+/// are. None where these are all.
+fn right_where_they_show(evidence: &Evidence<'_>) -> Vec<String> {
+    let Evidence { assignment, probes, samples, .. } = *evidence;
+    let right = assignment.equation.right();
+    let values: Vec<_> = probes.iter().map(|probe| right.evaluate(probes.uniforms(probe), &probe.attributes)).collect();
+    let is_right = |at: &usize| colour_difference(probes.probes[*at].colour, &samples[*at]) <= COLOUR_TOLERANCE;
+    let (right, wrong): (Vec<usize>, Vec<usize>) = (0..samples.len().min(values.len())).partition(is_right);
+    let terms: Vec<&RubricLine> = assignment.rubric.iter().filter(|line| !assignment.judges_position(line)).collect();
+    let is_spared = |line: &&&RubricLine| {
+        let shows = |at: &usize| {
+            let value = values[*at].get(&line.judges);
+            value.is_some_and(|value| value.numbers().iter().any(|number| number.abs() > COLOUR_TOLERANCE))
+        };
+        right.iter().any(shows) && !wrong.iter().any(shows)
+    };
+    let spared: Vec<String> = terms.iter().filter(is_spared).map(|line| line.id.clone()).collect();
+    if spared.len() == terms.len() { Vec::new() } else { spared }
 }
 
 /// The lines of which the text computes what they judge. Where one of these `wrong` ones is left that judges a value, the ways in

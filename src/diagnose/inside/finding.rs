@@ -5,7 +5,8 @@ use super::quantities::Quantity;
 use super::search::Search;
 use super::walk::{Suspect, made_of};
 use super::{Finding, Flaw, Stage, What, variable};
-use crate::diagnose::columns::{ScalarColumns, is_same};
+use crate::compare::COLOUR_TOLERANCE;
+use crate::diagnose::columns::{ScalarColumns, is_colour, is_same};
 use reference::interpreter::Scalar;
 use reference::interpreter::trace::Event;
 
@@ -76,11 +77,29 @@ impl Search<'_, '_> {
         self.missing_in(&mend).is_some().then_some(mend)
     }
 
-    /// What a place lacks of a sum.
+    /// What a place lacks of a sum. An addend that is there wherever it shows is not missing: it makes no difference where all is wrong.
     pub(super) fn missing_in(&self, mend: &Mend) -> Option<Vec<String>> {
         let trace = self.trace(mend.stage)?;
         let quantity = mend.quantity.map(|number| &self.quantities.all[number])?;
-        self.lacking(&trace.events[*mend.suspect.events.first()?], quantity)
+        let missing = self.lacking(&trace.events[*mend.suspect.events.first()?], quantity)?;
+        let addend = |name: &&String| quantity.addends.iter().find(|(own, _)| own.as_ref() == Some(name));
+        let is_lost = |name: &&String| addend(name).is_none_or(|(_, addend)| !self.is_there_where_it_shows(addend));
+        let lost: Vec<String> = missing.iter().filter(is_lost).cloned().collect();
+        Some(if lost.is_empty() { missing } else { lost })
+    }
+
+    /// Whether an addend shows at a place that is right, and at none that is wrong.
+    fn is_there_where_it_shows(&self, addend: &ScalarColumns) -> bool {
+        let is_right = |place: usize| is_colour(self.wanted.colours[place], self.own.colours[place]);
+        let shows = |place: usize| {
+            let of_place = |column: &Vec<f64>| {
+                let each = column.len() / self.count;
+                column[place * each..][..each].iter().any(|number| number.abs() > COLOUR_TOLERANCE)
+            };
+            addend.iter().any(of_place)
+        };
+        let (right, wrong): (Vec<usize>, Vec<usize>) = (0..self.count).partition(|place| is_right(*place));
+        right.into_iter().any(shows) && !wrong.into_iter().any(shows)
     }
 
     /// The addends that a sum lacks, where what it has are the others.
