@@ -87,9 +87,13 @@ fn of_colour(assignment: &Assignment, terms: &[TermJudgement], repaired: &Repair
         return vec![assignment.rubric[turns].id.clone()];
     }
     // What is written over is lost, and what writes over it is right.
-    let lost = || lines().filter(|line| is_wrong(line) && !repaired.lines.contains(&line.id));
-    if repaired.keeps_what_was_there() && lost().next().is_some() {
-        return lost().map(|line| line.id.clone()).collect();
+    if repaired.keeps_what_was_there() {
+        let is_known = |line: &&RubricLine| repaired.written_over.contains(&line.judges);
+        let is_wrong = |line: &&RubricLine| is_wrong(line) && !repaired.lines.contains(&line.id);
+        let lost: [Vec<&RubricLine>; 2] = [lines().filter(is_known).collect(), lines().filter(is_wrong).collect()];
+        if let Some(lost) = lost.into_iter().find(|lines| !lines.is_empty()) {
+            return lost.into_iter().map(|line| line.id.clone()).collect();
+        }
     }
     // What a fixed stage reads has its name, whatever stands for it in a right answer.
     let is_read = |name: &&str| {

@@ -58,7 +58,24 @@ impl Search<'_, '_> {
             lines: if is_of_loop { Vec::new() } else { self.lines_that_it_is_in(program, &trace, repair.mistake) },
             moves: self.stands_elsewhere(&attempt.seen) && self.is_in_place(&seen),
             touches: definition.map_or_else(Vec::new, |name| self.quantities.spoilt_by(*stage, &name)),
+            written_over: self.held_before(*stage, program, &trace),
         })
+    }
+
+    /// The names of what a variable holds where a change gives it another value; of a sum that has none those of its addends.
+    fn held_before(&self, stage: Stage, program: &Program, trace: &Trace) -> Vec<String> {
+        let what = |event: &Event| &program.sites()[event.site].what;
+        let gives = |event: &Event| is_marked(program, event) && matches!(what(event), What::Assign { .. });
+        let own = trace.events.iter().position(gives).and_then(|at| {
+            let What::Assign { name: given, .. } = what(&trace.events[at]) else { return None };
+            let holds =
+                |event: &&Event| matches!(what(event), What::Read(name) | What::Assign { name, .. } if name == given);
+            trace.events[..at].iter().rev().find(holds)
+        });
+        let named = own.and_then(|own| self.named(stage, own, true));
+        let sum = || own.and_then(|own| self.quantities.equal_to(stage, own));
+        let addends = || sum().into_iter().flat_map(|sum| &sum.addends).filter_map(|(name, _)| name.clone()).collect();
+        named.map_or_else(addends, |name| vec![name])
     }
 
     /// The program with a change on the line [`ProgramRepair::MARK`], what is seen of it, and the values of the stage that is changed.
@@ -118,6 +135,7 @@ impl Search<'_, '_> {
             lines: Vec::new(),
             moves: false,
             touches: finding.touches.clone(),
+            written_over: Vec::new(),
         }
     }
 

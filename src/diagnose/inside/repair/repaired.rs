@@ -22,6 +22,8 @@ pub(in crate::diagnose) struct Repaired {
     pub moves: bool,
     /// The variables of the right answer that are wrong with the mistake: the one that it is in, and those computed from it.
     pub touches: Vec<String>,
+    /// What the text writes over where it should be kept, by the names of the right answer, where that is known.
+    pub written_over: Vec<String>,
 }
 
 impl Repaired {
