@@ -19,6 +19,7 @@ use std::collections::{BTreeMap, HashMap};
 use std::sync::{Arc, Mutex, OnceLock};
 
 pub(crate) use operator::{OperatorText, operator_of, operators};
+pub(crate) use programs::FIRST;
 use programs::Screen;
 use within::Shown;
 

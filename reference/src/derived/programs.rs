@@ -12,7 +12,7 @@ use crate::probes::ProbeSet;
 use std::collections::BTreeMap;
 
 /// Probes under so many cameras tell most programs apart.
-pub(super) const FIRST: usize = 3;
+pub(crate) const FIRST: usize = 3;
 
 /// What every program shows at the first probes of a set.
 #[derive(Debug)]

@@ -1,7 +1,6 @@
 //! Within which features a mistake is: those of the lines without which nothing is left of the mistake.
 
-use super::programs::FIRST;
-use super::{Derived, RESULT, definition, read};
+use super::{Derived, FIRST, RESULT, definition, read};
 use crate::accepted::{AcceptedAnswer, Computed};
 use crate::assignment::{HandedIn, RubricLine};
 use crate::feature::Feature;

@@ -3,6 +3,7 @@
 use super::{FEWEST, agrees};
 use crate::Assignment;
 use crate::accepted::Computed;
+use crate::derived::FIRST;
 use crate::mistake::FoundMistake;
 use crate::probes::ProbeSet;
 use glam::{DVec3, DVec4};
@@ -13,9 +14,6 @@ const MOST_OF_TASTE: f64 = 0.4;
 /// A position for each probe, and whether the sample there has it.
 type IsThere<'e> = dyn Fn(usize, DVec4) -> bool + 'e;
 
-/// The probes of so many groups are asked first: most mistakes that are tried fail there.
-const FIRST: usize = 3;
-
 /// What a program shows at probes, and what samples are not that.
 struct Compared {
     own: Vec<Computed>,
@@ -25,14 +23,9 @@ struct Compared {
 }
 
 impl Compared {
-    fn of(
-        assignment: &Assignment,
-        found: &[FoundMistake],
-        probes: &ProbeSet,
-        is_shown: &dyn Fn(usize, &Computed) -> bool,
-    ) -> Option<Self> {
+    fn of(assignment: &Assignment, found: &[FoundMistake], probes: &ProbeSet, samples: &Samples<'_>) -> Option<Self> {
         let own = assignment.computed_by(&assignment.together(found, None)?, probes);
-        let contradicted = own.iter().enumerate().map(|(at, own)| !is_shown(at, own)).collect();
+        let contradicted = own.iter().enumerate().map(|(at, own)| !samples.show(at, own)).collect();
         Some(Self { is_open: vec![false; own.len()], own, contradicted })
     }
 
@@ -42,16 +35,15 @@ impl Compared {
         assignment: &Assignment,
         found: &[FoundMistake],
         probes: &ProbeSet,
-        is_between: &dyn Fn(usize, [DVec3; 2], DVec4) -> bool,
-        tolerance: f64,
+        samples: &Samples<'_>,
     ) {
         for taste in &assignment.unjudged {
             let Some(program) = assignment.together(found, Some(taste)) else { continue };
             for (at, (other, _)) in assignment.computed_by(&program, probes).into_iter().enumerate() {
                 let (colour, position) = self.own[at];
-                if !agrees(colour, other, tolerance) {
+                if !agrees(colour, other, samples.tolerance) {
                     self.is_open[at] = true;
-                    self.contradicted[at] &= !is_between(at, [colour.min(other), colour.max(other)], position);
+                    self.contradicted[at] &= !samples.lie_between(at, [colour.min(other), colour.max(other)], position);
                 }
             }
         }
@@ -59,7 +51,6 @@ impl Compared {
 }
 
 /// What samples show.
-#[derive(Clone, Copy)]
 struct Samples<'e> {
     colours: &'e [DVec3],
     /// Whether a sample's position is a given one.
@@ -81,12 +72,12 @@ impl Samples<'_> {
     /// Whether some of the first probes contradict these mistakes whatever the taste.
     fn contradict_at_first(&self, assignment: &Assignment, found: &[FoundMistake], probes: &ProbeSet) -> bool {
         let (places, first) = probes.part(FIRST);
-        let Some(mut compared) = Compared::of(assignment, found, &first, &|at, own| self.show(places[at], own)) else {
-            return true;
-        };
+        let colours: Vec<DVec3> = places.iter().map(|place| self.colours[*place]).collect();
+        let is_there = |at: usize, position| (self.is_there)(places[at], position);
+        let samples = Samples { colours: &colours, is_there: &is_there, tolerance: self.tolerance };
+        let Some(mut compared) = Compared::of(assignment, found, &first, &samples) else { return true };
         if compared.contradicted.contains(&true) {
-            let is_between = |at: usize, colours, position| self.lie_between(places[at], colours, position);
-            compared.spare_taste(assignment, found, &first, &is_between, self.tolerance);
+            compared.spare_taste(assignment, found, &first, &samples);
         }
         compared.contradicted.contains(&true)
     }
@@ -105,13 +96,12 @@ pub(super) fn contradicted_but_for_taste(
     tolerance: f64,
 ) -> Option<Vec<bool>> {
     let of_samples = Samples { colours: samples, is_there, tolerance };
-    let mut compared = Compared::of(assignment, found, probes, &|at, own| of_samples.show(at, own))?;
+    let mut compared = Compared::of(assignment, found, probes, &of_samples)?;
     let count = compared.contradicted.iter().filter(|contradicted| **contradicted).count();
     if count == 0 || count as f64 > MOST_OF_TASTE * samples.len() as f64 {
         return Some(compared.contradicted);
     }
-    let is_between = |at: usize, colours, position| of_samples.lie_between(at, colours, position);
-    compared.spare_taste(assignment, found, probes, &is_between, tolerance);
+    compared.spare_taste(assignment, found, probes, &of_samples);
     // Where nothing is open the mistake has to show, or else anything would be explained.
     let Compared { own, contradicted, is_open } = compared;
     let is_telling =
