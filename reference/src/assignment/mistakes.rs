@@ -56,10 +56,15 @@ impl Assignment {
     /// Whether one line of the rubric alone is about a variable of the solution, which is given one value, so that the line is about all
     /// that it is. What is given several values one after the other may have those of other lines, but for a line that no feature tells.
     pub fn is_of_one_line(&self, variable: &str) -> bool {
-        let is_about = |line: &RubricLine| line.variables.iter().any(|own| own == variable);
-        let mut about = self.rubric.iter().zip(&self.features).filter(|(line, _)| is_about(line));
-        let Some((_, feature)) = about.next() else { return false };
-        about.next().is_none() && (!self.is_of_several(variable) || feature.is_none() && !self.is_colour(variable))
+        let is_untold = |line: usize| self.features[line].is_none() && !self.is_colour(variable);
+        self.only_line_about(variable).is_some_and(|line| !self.is_of_several(variable) || is_untold(line))
+    }
+
+    /// The place of the line of the rubric that alone is about a variable of the solution.
+    pub(crate) fn only_line_about(&self, variable: &str) -> Option<usize> {
+        let is_about = |line: &usize| self.rubric[*line].variables.iter().any(|own| own == variable);
+        let mut about = (0..self.rubric.len()).filter(is_about);
+        about.next().filter(|_| about.next().is_none())
     }
 
     /// The lines that a mistake in a variable costs, where nothing else tells. Of one that is given several values, the only line that is

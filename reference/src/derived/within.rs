@@ -2,7 +2,7 @@
 
 use super::{Derived, FIRST, RESULT, definition, read};
 use crate::accepted::{AcceptedAnswer, Computed};
-use crate::assignment::{HandedIn, RubricLine};
+use crate::assignment::HandedIn;
 use crate::feature::Feature;
 use crate::fit::{TOLERANCE, agrees};
 use crate::interpreter::{Program, SlipMark, Stage, outline, slips_marked, slips_written};
@@ -60,8 +60,7 @@ impl Derived {
         // The only line that is about the variable, which is about all of it.
         let name = definition(&found.id).filter(|name| *name != RESULT).or(mark.name.as_deref());
         let name = name.filter(|name| of == Shown::Colour && self.assignment.is_of_one_line(name));
-        let is_about = |line: &RubricLine, name: &str| line.variables.iter().any(|own| own == name);
-        let owner = name.and_then(|name| self.assignment.rubric.iter().position(|line| is_about(line, name)));
+        let owner = name.and_then(|name| self.assignment.only_line_about(name));
         // What is counted by in the head of a loop is a matter of its turns.
         let counts = |line: &usize| self.assignment.loop_words(*line).any(|word| Some(&word) == mark.name.as_ref());
         if let Some(line) = (0..self.assignment.rubric.len()).find(counts) {
@@ -78,6 +77,10 @@ impl Derived {
         };
         if is_same(&wrong, &shown, of) {
             return None;
+        }
+        // A line that no feature tells is told by what it is about.
+        if let Some(owner) = owner.filter(|owner| self.assignment.features[*owner].is_none()) {
+            return Some(vec![owner]);
         }
         let left = |texts: &[String], feature: &AcceptedAnswer| match self.slipped(texts, (stage, &mark), &probes) {
             Slipped::Gone if stands_in(&mark.texts.0, feature) => Left::Gone,
@@ -108,10 +111,6 @@ impl Derived {
         let left_with = |which: Left| -> Vec<FeatureProgram<'_>> {
             judged.iter().filter(|(_, left)| *left == which).map(|(own, _)| *own).collect()
         };
-        // A line that no feature tells is told by what it is about.
-        if let Some(owner) = owner.filter(|owner| self.assignment.features[*owner].is_none()) {
-            return Some(vec![owner]);
-        }
         // What stands in the text of a feature is of that, whatever else happens to hide it.
         let mut around = left_with(Left::Gone);
         if around.is_empty() {
