@@ -98,12 +98,8 @@ pub(super) enum Flaw {
 
 /// Looks for the places that have to be mended for what is seen to be right.
 pub(super) fn find(evidence: &Evidence<'_>) -> Vec<Finding> {
-    let recording = evidence.recorded.of(evidence);
-    let findings = |recording: &Recording| {
-        let found = || find_in(evidence, evidence.assignment);
-        recording.findings.get_or_init(found).clone()
-    };
-    recording.map(findings).unwrap_or_default()
+    let Some(recording) = evidence.recorded.of(evidence) else { return Vec::new() };
+    recording.findings.get_or_init(|| find_in(evidence, evidence.assignment)).clone()
 }
 
 /// The same in the homework with other constants.
