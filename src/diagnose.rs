@@ -156,10 +156,14 @@ pub fn diagnose(evidence: &Evidence<'_>) -> Diagnosis {
 
 /// The diagnosis of an answer that agrees everywhere; none of any other, without a search for mistakes.
 pub fn agreement(evidence: &Evidence<'_>) -> Option<Diagnosis> {
-    let samples: Vec<[f64; 3]> = evidence.samples.iter().map(Sample::colour_f64).collect();
-    let frames_agree = evidence.frames.iter().all(FrameResult::agrees);
-    let agrees = frames_agree && reference::fit::is_right(evidence.probes, &samples, COLOUR_TOLERANCE);
+    let agrees = evidence.frames.iter().all(FrameResult::agrees) && agrees_at_probes(evidence);
     agrees.then(|| diagnose(evidence)).filter(|diagnosis| diagnosis.is_right)
+}
+
+/// Whether every sample has the colour that is right at its probe.
+pub fn agrees_at_probes(evidence: &Evidence<'_>) -> bool {
+    let samples: Vec<[f64; 3]> = evidence.samples.iter().map(Sample::colour_f64).collect();
+    reference::fit::is_right(evidence.probes, &samples, COLOUR_TOLERANCE)
 }
 
 /// What a wrong answer computes on its way at places of a frame, beside what it should. `rubric`: what the report says of its lines.

@@ -143,21 +143,25 @@ fn read_as(
     least: Option<usize>,
 ) -> Option<ReadHandIn> {
     let Evidence { assignment, probes, fresh, .. } = *evidence;
-    let frames = compared(expected, rendering);
     let probes = assignment.probes_of(answer, probes);
+    let reading = answer.reading.as_deref();
+    let by_answer = Evidence { probes: &probes, ..*evidence };
+    let is_likely = reading.is_some() && least.is_some_and(|least| agreeing(&by_answer) >= least);
+    // Frames have many more pixels than there are probes.
+    if !is_likely && !diagnose::agrees_at_probes(&by_answer) {
+        return None;
+    }
+    let frames = compared(expected, rendering);
     let of_answer = assignment.probes_of(answer, fresh.probes);
     let fresh = Fresh { probes: &of_answer, ..fresh };
     // Advice and the explanation are about the solution, which this answer is not.
     let (recorded, recorded_as_read) = <(Recorded, Recorded)>::default();
-    let evidence = Evidence { frames: &frames, probes: &probes, fresh, beyond: &[], recorded: &recorded, ..*evidence };
-    let reading = answer.reading.as_deref();
+    let evidence = Evidence { frames: &frames, fresh, beyond: &[], recorded: &recorded, ..by_answer };
     let read = |reading: &Reading| {
         let (assignment, recorded) = (&reading.assignment, &recorded_as_read);
         diagnose::diagnose(&Evidence { assignment, recorded, ..evidence })
     };
-    let is_likely = || least.is_some_and(|least| agreeing(&evidence) >= least);
-    let read = || reading.filter(|_| is_likely()).map(read);
-    let mut diagnosis = diagnose::agreement(&evidence).or_else(read)?;
+    let mut diagnosis = diagnose::agreement(&evidence).or_else(|| reading.filter(|_| is_likely).map(read))?;
     diagnosis.explanation = None;
     diagnosis.advice.extend(reading.map(|reading| AdviceLine {
         id: reading.id.clone(),
