@@ -139,7 +139,7 @@ pub fn contradicted(
 /// At how many probes a mistake shows something else than a right answer, or elsewhere.
 pub fn showing(assignment: &Assignment, found: &FoundMistake, probes: &ProbeSet, tolerance: f64) -> usize {
     let found = std::slice::from_ref(found);
-    let shown: Vec<Computed> = match (assignment.together(found, None), assignment.variant(found)) {
+    let shown: Vec<Computed> = match (assignment.together(found, &[]), assignment.variant(found)) {
         (Some(answer), _) => assignment.computed_by(&answer, probes),
         (None, Some(variant)) => {
             let outcome = |probe: &Probe| variant.evaluate(probes.uniforms(probe), &probe.attributes);

@@ -9,9 +9,9 @@ use crate::traced::TracedProgram;
 use std::sync::Arc;
 
 impl Assignment {
-    /// The solution with all these mistakes in it, and with what `beside` has in place of its texts. `None` where one of them is no
+    /// The solution with all these mistakes in it, and with what those `beside` have in place of its texts. `None` where one of them is no
     /// program that replaces texts, or where one replaces what another one needs.
-    pub(crate) fn together(&self, found: &[FoundMistake], beside: Option<&AcceptedAnswer>) -> Option<AcceptedAnswer> {
+    pub(crate) fn together(&self, found: &[FoundMistake], beside: &[&AcceptedAnswer]) -> Option<AcceptedAnswer> {
         let texts = self.texts_with(found, beside)?;
         let [mut vertex, mut fragment] = [&self.pipeline.vertex, &self.pipeline.fragment].map(Arc::clone);
         for (file, text) in self.files.iter().zip(texts).filter(|(file, text)| file.solution.text != *text) {
@@ -28,14 +28,14 @@ impl Assignment {
 
     /// The solution with these mistakes in it, to be looked into.
     pub fn traced_with(&self, found: &[FoundMistake]) -> Option<TracedProgram> {
-        let texts = self.texts_with(found, None)?;
+        let texts = self.texts_with(found, &[])?;
         let stages = self.files.iter().map(|file| file.stage);
         let texts: Vec<(Stage, &str)> = stages.zip(texts.iter().map(String::as_str)).collect();
         TracedProgram::new(self, &texts).ok()
     }
 
     /// The text of each file of the solution with what these replace: one after the other, or the other way round.
-    fn texts_with(&self, found: &[FoundMistake], beside: Option<&AcceptedAnswer>) -> Option<Vec<String>> {
+    fn texts_with(&self, found: &[FoundMistake], beside: &[&AcceptedAnswer]) -> Option<Vec<String>> {
         let of_mistake = |found: &FoundMistake| {
             let mistake = self.mistake(&found.id)?;
             let program = mistake.program(found.form)?;
@@ -46,14 +46,11 @@ impl Assignment {
             };
             Some(program.replaced.iter().map(filled).collect::<Vec<_>>())
         };
-        let mut replaced: Vec<Vec<[String; 2]>> = found.iter().map(of_mistake).collect::<Option<_>>()?;
-        let with = |replaced: &[Vec<[String; 2]>]| {
-            let first: Vec<_> = beside.iter().map(|beside| beside.replaced.clone()).collect();
-            self.replacing(&[&first, replaced].concat())
-        };
-        with(&replaced).or_else(|| {
+        let beside = beside.iter().map(|beside| Some(beside.replaced.clone()));
+        let mut replaced: Vec<Vec<[String; 2]>> = beside.chain(found.iter().map(of_mistake)).collect::<Option<_>>()?;
+        self.replacing(&replaced).or_else(|| {
             replaced.reverse();
-            with(&replaced)
+            self.replacing(&replaced)
         })
     }
 

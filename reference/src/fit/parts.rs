@@ -6,6 +6,7 @@
 use super::{Alternatives, channel_agrees};
 use crate::accepted::Computed;
 use crate::equation::Reads;
+use crate::feature::Feature;
 use crate::mistake::FoundMistake;
 use glam::{DVec3, DVec4};
 
@@ -65,7 +66,8 @@ pub fn explain_parts(
         is_there,
         tolerance,
     };
-    if let Some(parts) = search.missing(&search.right, 1).or_else(|| search.scaled()) {
+    let together = || missing_together(alternatives, &search);
+    if let Some(parts) = search.missing(&search.right, 1).or_else(|| search.scaled()).or_else(together) {
         return Some(FeatureExplanation { found: Vec::new(), parts });
     }
     let with_one = |(found, _, shown): (&FoundMistake, _, &[Computed])| {
@@ -82,6 +84,35 @@ pub fn explain_parts(
         let both: Vec<Computed> = both.map(|((a, b), right)| (a.0 + b.0 - right.0, a.1 + b.1 - right.1)).collect();
         Some(FeatureExplanation { parts: search.missing(&both, 0)?, found: vec![a.clone(), b.clone()] })
     })
+}
+
+/// Two features without which the solution shows the samples, where they are not added to one another.
+fn missing_together(alternatives: &Alternatives<'_>, search: &DefectSearch<'_>) -> Option<Vec<(usize, FeatureDefect)>> {
+    let assignment = alternatives.assignment;
+    let programs = assignment.features.iter().enumerate().filter_map(|(line, feature)| match feature {
+        Some(Feature::Program(program)) => Some((line, program, alternatives.without(line)?)),
+        _ => None,
+    });
+    let programs: Vec<_> = programs.take(MOST_FEATURES).collect();
+    let shows = |place: usize, own: &Computed| search.shows(place, own.0, *own);
+    let pairs =
+        programs.iter().enumerate().flat_map(|(at, first)| programs[at + 1..].iter().map(move |own| (first, own)));
+    let found = pairs.into_iter().find(|((_, first, without_first), (_, second, without_second))| {
+        // Where one of them makes no difference, the other one is what shows.
+        let is_possible = |(place, right): (usize, &Computed)| {
+            let (a, b) = (&without_first[place], &without_second[place]);
+            match (a == right, b == right) {
+                (true, _) => shows(place, b),
+                (false, true) => shows(place, a),
+                (false, false) => true,
+            }
+        };
+        let both = || assignment.together(&[], &[first, second]);
+        let shown = search.right.iter().enumerate().all(is_possible).then(both).flatten();
+        let shown = shown.map(|both| assignment.computed_by(&both, alternatives.probes));
+        shown.is_some_and(|shown| shown.iter().enumerate().all(|(place, own)| shows(place, own)))
+    });
+    found.map(|((first, ..), (second, ..))| [*first, *second].map(|line| (line, FeatureDefect::Missing)).to_vec())
 }
 
 struct DefectSearch<'a> {

@@ -24,7 +24,7 @@ struct Compared {
 
 impl Compared {
     fn of(assignment: &Assignment, found: &[FoundMistake], probes: &ProbeSet, samples: &Samples<'_>) -> Option<Self> {
-        let own = assignment.computed_by(&assignment.together(found, None)?, probes);
+        let own = assignment.computed_by(&assignment.together(found, &[])?, probes);
         let contradicted = own.iter().enumerate().map(|(at, own)| !samples.show(at, own)).collect();
         Some(Self { is_open: vec![false; own.len()], own, contradicted })
     }
@@ -38,7 +38,7 @@ impl Compared {
         samples: &Samples<'_>,
     ) {
         for taste in &assignment.unjudged {
-            let Some(program) = assignment.together(found, Some(taste)) else { continue };
+            let Some(program) = assignment.together(found, &[taste]) else { continue };
             for (at, (other, _)) in assignment.computed_by(&program, probes).into_iter().enumerate() {
                 let (colour, position) = self.own[at];
                 if !agrees(colour, other, samples.tolerance) {
