@@ -48,6 +48,14 @@ pub enum Operator {
     StatementLeftOut,
     /// A case of a `switch` runs into the next.
     FallsThrough,
+    /// A function changes a copy of what it is given.
+    ByValue,
+    /// A variable is declared anew where another one of its name is meant.
+    Shadowed,
+    /// What a function returns is not used.
+    ThrownAway,
+    /// Nothing belongs to a branch.
+    EmptyBranch,
     /// The sign is the other one.
     Sign,
     /// Another operator stands between two operands.
@@ -102,10 +110,18 @@ pub enum Operator {
     Otherwise,
 }
 
+impl Operator {
+    /// Whether it concerns how a function is written, and not what stands in its expressions.
+    #[must_use]
+    pub const fn is_of_a_body(self) -> bool {
+        matches!(self, Self::FallsThrough | Self::ByValue | Self::Shadowed | Self::ThrownAway | Self::EmptyBranch)
+    }
+}
+
 #[cfg(test)]
 impl Operator {
     /// All of them.
-    pub const ALL: [Self; 36] = [
+    pub const ALL: [Self; 40] = [
         Self::ClampLeftOut,
         Self::NormalizeLeftOut,
         Self::PowerLeftOut,
@@ -116,6 +132,10 @@ impl Operator {
         Self::DivisorLeftOut,
         Self::StatementLeftOut,
         Self::FallsThrough,
+        Self::ByValue,
+        Self::Shadowed,
+        Self::ThrownAway,
+        Self::EmptyBranch,
         Self::Sign,
         Self::OtherOperator,
         Self::Exchanged,

@@ -50,7 +50,7 @@ fn instead_of(operator: Binary) -> &'static [Binary] {
     }
 }
 
-fn is_additive(operator: Binary) -> bool {
+pub(super) fn is_additive(operator: Binary) -> bool {
     matches!(operator, Binary::Add | Binary::Subtract)
 }
 

@@ -46,6 +46,8 @@ pub(super) fn of_statement(statement: &Statement) -> Operator {
         }
         ExpressionKind::Assign(Some(Binary::Multiply | Binary::Divide), ..) => Operator::Times,
         ExpressionKind::Assign(Some(Binary::Add | Binary::Subtract), ..) => Operator::Shifted,
+        // What it writes over is what counts.
+        ExpressionKind::Assign(None, to, from) if !reads(from, to) => Operator::OtherValue,
         ExpressionKind::Assign(None, _, from) => match &bare(from).kind {
             ExpressionKind::Call(..) => of_call(bare(from)),
             ExpressionKind::Unary(Unary::Minus, _) => Operator::Sign,
@@ -53,6 +55,15 @@ pub(super) fn of_statement(statement: &Statement) -> Operator {
         },
         _ => Operator::OtherValue,
     }
+}
+
+/// Whether the variable of another expression is a part of one.
+fn reads(own: &Expression, of: &Expression) -> bool {
+    let (text, variable) = (written(own), written(of));
+    let words = |text: &'_ str| -> Vec<String> {
+        text.split(|c: char| !(c.is_ascii_alphanumeric() || c == '_')).map(str::to_owned).collect()
+    };
+    words(&variable).first().is_some_and(|name| words(&text).contains(name))
 }
 
 /// What a function does that has no place there.

@@ -9,7 +9,7 @@ use crate::interpreter::types::Type;
 const COMPONENTS: [&str; 4] = ["x", "y", "z", "w"];
 
 /// Ways to take three components, and two.
-const OF_THREE: [&str; 6] = ["xyz", "xzy", "yxz", "zyx", "yzx", "zxy"];
+pub(super) const OF_THREE: [&str; 6] = ["xyz", "xzy", "yxz", "zyx", "yzx", "zxy"];
 const OF_TWO: [&str; 6] = ["xy", "yx", "xz", "zx", "yz", "xx"];
 
 /// Those of names, numbers, components and signs.

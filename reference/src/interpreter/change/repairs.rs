@@ -3,6 +3,7 @@
 //! These are the slips of the text itself, for most slips undo another one, and what the right answer is made of: its values,
 //! its functions with what else they are given, its numbers.
 
+mod bodies;
 mod copies;
 mod declared;
 mod expressions;
@@ -10,13 +11,12 @@ mod ingredients;
 mod inlined;
 mod order;
 mod size;
+mod statements;
 mod undone;
 
-use super::inverse::of_statement;
-use super::programs::left_out;
+use super::Operator;
 use super::tree::{ExpressionPlace, MetAs, Path, TreeWalk, paths, walk, with};
-use super::{Operator, written};
-use crate::interpreter::syntax::{Expression, ExpressionKind, Item, Statement, StatementKind};
+use crate::interpreter::syntax::{Expression, ExpressionKind, Function, Item, Statement, StatementKind};
 use crate::interpreter::{Program, Refusal, Stage, compile, parse, text};
 use copies::{copied, together};
 use declared::Declared;
@@ -24,6 +24,7 @@ use expressions::of_expression;
 pub use ingredients::Ingredients;
 use order::Order;
 use size::{size, tokens};
+use statements::{ALWAYS, always, without, without_else};
 use std::cell::Cell;
 use std::collections::HashSet;
 
@@ -69,6 +70,8 @@ enum Where {
     Statement(usize),
     /// The statement with this number and the next one are exchanged.
     Exchanged(usize, Box<[Statement; 2]>),
+    /// The item with this number is another function.
+    Function(usize, Box<Function>),
 }
 
 impl ProgramRepair {
@@ -94,30 +97,38 @@ impl ProgramRepair {
     fn places(&self) -> &[(usize, Path, Expression)] {
         match &self.place {
             Where::Expressions(places) => places,
-            Where::Statement(_) | Where::Exchanged(..) => &[],
+            Where::Statement(_) | Where::Exchanged(..) | Where::Function(..) => &[],
         }
     }
 
     /// How many words and signs it takes away and puts there, and whether it puts any there.
     fn size(&self) -> (usize, bool) {
         match self.place {
-            Where::Expressions(_) => size(&self.texts),
+            Where::Expressions(_) | Where::Function(..) => size(&self.texts),
             Where::Exchanged(..) => (2, false),
-            Where::Statement(_) => (tokens(&self.texts[0]).len(), false),
+            // It is one thing.
+            Where::Statement(_) => (1, false),
         }
     }
 
-    /// Whether it is a slip wherever it stands, by its size: something is exchanged, or has another sign, or is compared the other way.
+    /// Whether it is a slip wherever it stands: something is exchanged, or has another sign, or is compared the other way, or a branch
+    /// is always taken.
     fn is_smallest(&self, (size, _): (usize, bool)) -> bool {
         let is_one_of =
             |signs: &str| self.texts.iter().all(|text| tokens(text).iter().any(|token| signs.contains(token)));
         let most = match self.mistake {
-            Operator::OtherOperator if is_one_of("+-") || is_one_of("<>") => 2,
+            Operator::OtherOperator if is_one_of("+-") || is_one_of("<>") || is_one_of("*/") => 2,
+            Operator::Gated => return self.texts[1] == ALWAYS,
             // Of a matrix and a vector it is another matrix.
             Operator::Exchanged if self.texts[0].contains(" * ") => return false,
             _ => 1,
         };
         self.is_slip && size <= most
+    }
+
+    /// Whether two statements are exchanged.
+    pub fn is_of_order(&self) -> bool {
+        matches!(self.place, Where::Exchanged(..))
     }
 
     /// Whether the line of what is wrong is known by it.
@@ -153,6 +164,7 @@ impl Repairable {
             |own: &Expression| paths(own).iter().any(|path| lines.contains(&ExpressionPlace::of(own, path).own.line));
         // The condition of the last branch that nothing else is done without, and the same for the branch whose condition comes next.
         let (mut last, before) = (None, Cell::new(None));
+        let decides = Cell::new(false);
         walk(
             &mut self.items.clone(),
             &mut TreeWalk {
@@ -160,6 +172,7 @@ impl Repairable {
                 declares: true,
                 statement: &mut |own, _| {
                     before.set(None);
+                    decides.set(matches!(own.kind, StatementKind::If(..)));
                     if let StatementKind::If(condition, _, no) = &own.kind {
                         before.set(last.take());
                         last = no.is_none().then(|| condition.clone());
@@ -169,12 +182,13 @@ impl Repairable {
                     statement += 1;
                 },
                 expression: &mut |own, met, names| {
-                    let before = before.take();
+                    let (before, decides) = (before.take(), decides.take());
                     if is_sought(own) {
                         let all = of_expression(own, expression, names, right, &self.declared).into_iter();
                         // Other bounds may have no end.
                         found.extend(all.filter(|(_, repair)| repair.is_slip || !matches!(met, MetAs::Bound)));
                         found.extend(before.map(|before| without_else(&before, own, expression)));
+                        found.extend(decides.then(|| always(own, expression)));
                     }
                     expression += 1;
                 },
@@ -184,6 +198,7 @@ impl Repairable {
         let mut all = together(found, &self.copied);
         all.extend(statements);
         all.extend(order.found);
+        all.extend(bodies::of_functions(&self.items));
         let ranked = all.into_iter().filter_map(|repair| {
             let rank = rank(repair.line)?;
             let size = repair.size();
@@ -216,7 +231,12 @@ impl Repairable {
         Some(Program::of(compile::compile(&items, self.version, self.stage).ok()?))
     }
 
-    /// The same so that it can be traced, with what was changed on the line [`ProgramRepair::MARK`].
+    /// The program without a change, so that it can be traced.
+    pub fn as_it_is(&self) -> Option<Program> {
+        Some(Program::of(compile::compile_traced(&self.items, self.version, self.stage).ok()?))
+    }
+
+    /// The program with a change so that it can be traced, with what was changed on the line [`ProgramRepair::MARK`].
     pub fn traced(&self, repair: &ProgramRepair) -> Option<Program> {
         let items = self.items_with(repair, true);
         Some(Program::of(compile::compile_traced(&items, self.version, self.stage).ok()?))
@@ -234,6 +254,11 @@ impl Repairable {
 
     fn items_with(&self, repair: &ProgramRepair, is_marked: bool) -> Vec<Item> {
         let mut items = self.items.clone();
+        if let Where::Function(at, function) = &repair.place {
+            let function = if is_marked { bodies::with_marks(function, repair.line) } else { (**function).clone() };
+            items[*at] = Item::Function(function);
+            return items;
+        }
         let (mut expression, mut statement) = (0, 0);
         walk(
             &mut items,
@@ -259,24 +284,6 @@ impl Repairable {
         );
         items
     }
-}
-
-/// A branch that is taken only where the one before it is not.
-fn without_else(before: &Expression, own: &Expression, number: usize) -> (u32, ProgramRepair) {
-    let place = Where::Expressions(vec![(number, Path::new(), undone::with_else(before, own))]);
-    let text = written(own);
-    let texts = [format!("if ({text})"), format!("else if ({text})")];
-    (own.at, ProgramRepair::slip(Operator::StatementLeftOut, own.line, texts, place))
-}
-
-/// The program without a statement.
-fn without(own: &Statement, number: usize) -> Option<ProgramRepair> {
-    left_out(own).filter(|_| !matches!(own.kind, StatementKind::Empty))?;
-    let text = match &own.kind {
-        StatementKind::Expression(expression) => written(expression),
-        _ => String::new(),
-    };
-    Some(ProgramRepair::slip(of_statement(own), own.line, [text, String::new()], Where::Statement(number)))
 }
 
 /// The expression on the line [`ProgramRepair::MARK`], the last operator of a chain among it.

@@ -26,9 +26,12 @@ pub(super) fn copied(items: &mut [Item]) -> HashSet<u32> {
 }
 
 /// A change of what a macro writes is one of all its copies: the changes of each copy that are the same slip become one. A slip that not
-/// every copy can have is none. `found`: the changes with the bytes at which what they change is written.
+/// every copy can have is none. But brackets that a macro lacks change only what it is given without any of its own: they are told on
+/// the macro's own line. `found`: the changes with the bytes at which what they change is written.
 pub(super) fn together(found: Vec<(u32, ProgramRepair)>, copied: &HashSet<u32>) -> Vec<ProgramRepair> {
     let (copies, alone): (Vec<_>, Vec<_>) = found.into_iter().partition(|(at, _)| copied.contains(at));
+    let brackets = copies.iter().filter(|(_, repair)| repair.mistake == Operator::Grouping);
+    let brackets: Vec<ProgramRepair> = brackets.map(|(_, repair)| on_the_macro(repair)).collect();
     let mut groups: BTreeMap<u32, Vec<Vec<ProgramRepair>>> = BTreeMap::new();
     for (at, repair) in copies {
         let all = groups.entry(at).or_default();
@@ -52,7 +55,16 @@ pub(super) fn together(found: Vec<(u32, ProgramRepair)>, copied: &HashSet<u32>) 
         };
         first.into_iter().filter_map(join).collect::<Vec<_>>()
     });
-    alone.into_iter().map(|(_, repair)| repair).chain(joined).collect()
+    alone.into_iter().map(|(_, repair)| repair).chain(joined).chain(brackets).collect()
+}
+
+/// A change on the line of the macro that writes what is changed: that stands above all that the macro is given.
+fn on_the_macro(repair: &ProgramRepair) -> ProgramRepair {
+    let changed = repair.places().iter().map(|(.., changed)| changed);
+    let lines = changed.flat_map(|changed| {
+        paths(changed).into_iter().map(|path| ExpressionPlace::of(changed, &path).own.line).collect::<Vec<_>>()
+    });
+    ProgramRepair { line: lines.chain([repair.line]).min().unwrap_or(repair.line), ..repair.clone() }
 }
 
 /// Where a change, or the first copy of one, stands: in which expression, and where in it.

@@ -1,6 +1,8 @@
 //! Slips that are undone in a text, and that nobody makes of a right answer: there they would be another slip, or none.
 
 use super::super::calls::exchanged;
+use super::super::chains::is_additive;
+use super::super::leaves::OF_THREE;
 use super::super::tree::{ExpressionPlace, operands};
 use super::super::types::{KnownTypes, guess};
 use super::super::{Operator, bare, written};
@@ -29,8 +31,17 @@ pub(super) fn changes(
     };
     if let ExpressionKind::Assign(operator, to, from) = &own.kind {
         let assigned = |to| ExpressionKind::Assign(*operator, Box::new(to), from.clone());
-        let others = other_targets(to, known).into_iter();
-        found.extend(others.map(|to| (Operator::OtherValue, Expression { kind: assigned(to), ..own.clone() })));
+        let values = other_targets(to, known).into_iter().map(|to| (Operator::OtherValue, to));
+        let components = other_components(to).into_iter().map(|to| (Operator::OtherComponents, to));
+        let others = values.chain(components);
+        found.extend(others.map(|(mistake, to)| (mistake, Expression { kind: assigned(to), ..own.clone() })));
+    }
+    // Some components in place of the whole vector. Beside other arguments of a constructor it would be too many.
+    if let ExpressionKind::Member(of, _) = &own.kind
+        && matches!(guess(of, known), Some(Type::Vector(..)))
+        && !place.parent.is_some_and(is_one_of_several)
+    {
+        found.push((Operator::OtherComponents, (**of).clone()));
     }
     match &own.kind {
         ExpressionKind::Assign(None, to, from) => {
@@ -75,6 +86,7 @@ pub(super) fn changes(
             found.extend(others.map(|other| (Operator::OtherValue, member(other))));
         }
         ExpressionKind::Chain(first, others) => {
+            found.extend(taken_in(own).into_iter().map(|own| (Operator::Grouping, own)));
             found.extend(floating(own).map(|own| (Operator::WholeNumbers, own)));
             // What is turned round as a share of one.
             if let (ExpressionKind::Floating(1.0, _), [(Binary::Subtract, _, other)]) = (&first.kind, &others[..]) {
@@ -119,12 +131,49 @@ fn other_targets(to: &Expression, known: KnownTypes<'_>) -> Vec<Expression> {
     }
 }
 
+/// Other components of a vector in place of three that something is assigned to.
+fn other_components(to: &Expression) -> Vec<Expression> {
+    let ExpressionKind::Member(of, taken) = &to.kind else { return Vec::new() };
+    if taken.len() != 3 || !taken.chars().all(|c| "xyzrgb".contains(c)) {
+        return Vec::new();
+    }
+    let member = |name: &str| ExpressionKind::Member(of.clone(), name.into());
+    OF_THREE.iter().map(|name| Expression { kind: member(name), ..to.clone() }).collect()
+}
+
+/// What stands behind a function of one value, in its brackets: `f(a) * b` becomes `f(a * b)`, and `f(a + b) * c` becomes `f(a + b * c)`.
+fn taken_in(own: &Expression) -> Option<Expression> {
+    let ExpressionKind::Chain(first, others) = &own.kind else { return None };
+    let ExpressionKind::Call(name, arguments) = &first.kind else { return None };
+    let ([argument], [next, rest @ ..]) = (&arguments[..], &others[..]) else { return None };
+    let chain = |first: Expression, others: Vec<(Binary, u32, Expression)>| Expression {
+        kind: ExpressionKind::Chain(Box::new(first), others),
+        ..own.clone()
+    };
+    let inner = match &argument.kind {
+        ExpressionKind::Chain(begin, parts) if is_additive(parts[0].0) && !is_additive(next.0) => {
+            let mut parts = parts.clone();
+            let last = parts.last_mut()?;
+            last.2 = chain(last.2.clone(), vec![next.clone()]);
+            chain((**begin).clone(), parts)
+        }
+        _ => chain(argument.clone(), vec![next.clone()]),
+    };
+    let call = Expression { kind: ExpressionKind::Call(Name::clone(name), vec![inner]), ..(**first).clone() };
+    Some(if rest.is_empty() { call } else { chain(call, rest.to_vec()) })
+}
+
 /// The condition of a branch that holds only where that of the branch before it does not.
 pub(super) fn with_else(before: &Expression, own: &Expression) -> Expression {
     let bracket = |of: &Expression| Expression::made(own.line, ExpressionKind::Comma(vec![of.clone()]));
     let not = Expression::made(own.line, ExpressionKind::Unary(Unary::Not, Box::new(bracket(before))));
     let kind = ExpressionKind::Chain(Box::new(not), vec![(Binary::And, own.line, bracket(own))]);
     Expression { kind, ..own.clone() }
+}
+
+/// Whether a vector or the like is made there of several values.
+fn is_one_of_several(parent: &Expression) -> bool {
+    matches!(&parent.kind, ExpressionKind::Call(name, all) if Type::named(name).is_some() && all.len() > 1)
 }
 
 fn is_index(parent: &Expression) -> bool {
