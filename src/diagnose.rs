@@ -124,7 +124,7 @@ pub fn diagnose(evidence: &Evidence<'_>) -> Diagnosis {
     // A fragment stage moves nothing: what it does to the picture is the colour's affair.
     let shape = shape_agrees(evidence, &probes) || !evidence.assignment.hands_in(Stage::Vertex);
     let cause = cause(evidence, shape).unless_refuted(evidence).unless_nothing_is_drawn(evidence);
-    let cause = cause.unless_absent(evidence, shape).unless_free(evidence, shape);
+    let cause = cause.unless_absent(evidence, shape).but_for_right_terms(evidence).unless_free(evidence, shape);
     let mut mistakes = cause.ids();
     // Where no line of the rubric is about the position, a mistake that is found says what moved.
     let Evidence { assignment, .. } = *evidence;

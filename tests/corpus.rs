@@ -27,7 +27,7 @@ const SAMPLES: [(&str, usize); 31] = [
     ("falloff-quadratic", 210),
     ("flat", 148),
     ("fog", 13),
-    ("ggsample06", 1470),
+    ("ggsample06", 1487),
     ("ggsample11-map", 87),
     ("ggsample11-pcf", 64),
     ("ggsample11-projection", 58),

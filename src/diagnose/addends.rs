@@ -75,6 +75,15 @@ pub(super) fn computes_a_term(evidence: &Evidence<'_>) -> bool {
         })
 }
 
+/// Whether the text computes the right colour, whatever becomes of it.
+pub(super) fn computes_the_colour(evidence: &Evidence<'_>) -> bool {
+    let equation = &evidence.assignment.equation;
+    let colour = equation.definitions().get(equation.colour()).map(|colour| &colour.name);
+    TextEvaluation::of(evidence)
+        .zip(colour)
+        .is_some_and(|(text, colour)| !text.computing(&text.right(colour)).is_empty())
+}
+
 /// Whether the colour is made of something that a right answer computes as well and that is not the same everywhere, or is one colour
 /// that such an answer begins with. Then the text computes, and a mistake on the way may leave one colour for all places: it looks
 /// nothing up.

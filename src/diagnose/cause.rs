@@ -18,6 +18,7 @@ use reference::assignment::RubricLine;
 use reference::derived::{definition, is_derived};
 use reference::equation::{DISCARDED, Reads};
 use reference::fit::{Alternatives, FeatureDefect, FeatureExplanation, TermJudgement, judge_terms};
+use reference::interpreter::Operator;
 use reference::mistake::{FoundMistake, Mistake};
 
 pub(super) use search::{cause, is_there, leaves_little};
@@ -46,7 +47,7 @@ pub(super) enum Cause {
     Known {
         constants: Vec<ChangedConstant>,
         found: Vec<FoundMistake>,
-        /// Ids of the lines that derived mistakes cost nothing: the text computes what they judge.
+        /// Ids of the lines that these cost nothing: the text computes what they judge.
         spared: Vec<String>,
     },
     /// All is right but for some features, and a known mistake where there is one.
@@ -148,7 +149,8 @@ impl Cause {
     /// leave them their points.
     pub(super) fn unless_absent(self, evidence: &Evidence<'_>, shape: bool) -> Self {
         let assignment = evidence.assignment;
-        if !matches!(self, Self::Known { .. } | Self::Parts(_) | Self::Repaired(_)) {
+        let is_in_a_body = self.repairs().any(|repaired| repaired.operator.is_some_and(Operator::is_of_a_body));
+        if !matches!(self, Self::Known { .. } | Self::Parts(_) | Self::Repaired(_)) || is_in_a_body {
             return self;
         }
         let ids = self.ids();
@@ -173,6 +175,26 @@ impl Cause {
         }
         let terms = terms.clone();
         Self::Unexplained { terms, findings, absent }
+    }
+
+    /// The cause; one mistake costs nothing of terms that the text has right, unless these are all.
+    pub(super) fn but_for_right_terms(mut self, evidence: &Evidence<'_>) -> Self {
+        let assignment = evidence.assignment;
+        let Self::Known { constants, found, spared } = &mut self else { return self };
+        let ([], [only]) = (&constants[..], &found[..]) else { return self };
+        let is_cost = |line: &&RubricLine| {
+            !assignment.judges_position(line) && assignment.keeps(only, line) < 1.0 && !spared.contains(&line.id)
+        };
+        let costs: Vec<&RubricLine> = assignment.rubric.iter().filter(is_cost).collect();
+        if costs.len() > 1 {
+            let terms = inside::right_terms(evidence);
+            let right = costs.iter().filter(|line| terms.contains(&line.id)).map(|line| line.id.clone());
+            let right: Vec<String> = right.collect();
+            if right.len() < costs.len() {
+                spared.extend(right);
+            }
+        }
+        self
     }
 
     /// The cause, or that it is not known: a mistake that nobody wrote down and that costs nothing does not make an answer wrong.

@@ -14,6 +14,7 @@ mod chain;
 mod features;
 mod finding;
 mod given;
+mod influence;
 mod interpolated;
 mod own_values;
 mod quantities;
@@ -40,10 +41,10 @@ use reference::interpreter::trace::{Site, Trace, What};
 use reference::interpreter::{Binary, Stage};
 use reference::mistake::FoundMistake;
 use reference::traced::{Place, Seen, TracedProgram};
-pub(super) use repair::Repaired;
+pub(super) use repair::{RepairAim, Repaired};
 use search::{Search, is_right};
 pub(super) use walk::made_of;
-pub(super) use words::overwrites;
+pub(super) use words::{left_behind, overwrites};
 
 /// Where a mistake stands.
 #[derive(Clone, Debug, PartialEq)]
@@ -118,6 +119,11 @@ pub(super) fn account(evidence: &Evidence<'_>, goes_on: &mut dyn FnMut() -> bool
 
 /// The places that have to be mended, and the one slip of the text without which all is right, where there is one.
 pub(super) fn slip(evidence: &Evidence<'_>) -> (Vec<Finding>, Option<Located>) {
+    slip_beside(evidence, &[])
+}
+
+/// The same where a right answer is the one with these mistakes in it.
+fn slip_beside(evidence: &Evidence<'_>, others: &[FoundMistake]) -> (Vec<Finding>, Option<Located>) {
     let both = |search: &mut Search<'_, '_>| {
         let findings = search.places();
         // What is thrown away or written over is a slip of its own.
@@ -125,7 +131,17 @@ pub(super) fn slip(evidence: &Evidence<'_>) -> (Vec<Finding>, Option<Located>) {
         let slip = if is_value { search.slip(&findings) } else { None };
         (findings, slip)
     };
-    within(evidence, evidence.assignment, &[], &[], both).unwrap_or_default()
+    within(evidence, evidence.assignment, others, &[], both).unwrap_or_default()
+}
+
+/// The slip of the text that is one of the mistakes that were found, where there is one.
+pub(super) fn slip_of(evidence: &Evidence<'_>, found: &[FoundMistake], index: usize) -> Option<Located> {
+    slip_beside(evidence, &others(found, index)).1
+}
+
+/// The one change of a kind by which all is right.
+pub(super) fn only_change(evidence: &Evidence<'_>, aim: RepairAim) -> Option<Repaired> {
+    within(evidence, evidence.assignment, &[], &[], |search| search.only(&[], aim))?
 }
 
 /// Looks for the place of one of the mistakes that were found: where a right answer is the one with the others in it.
@@ -135,11 +151,14 @@ pub(super) fn find_one(
     found: &[FoundMistake],
     index: usize,
 ) -> Option<Finding> {
-    let others: Vec<FoundMistake> =
-        found.iter().enumerate().filter(|(at, _)| *at != index).map(|(_, other)| other.clone()).collect();
-    let findings = within(evidence, assignment, &others, &[], |search| search.findings())?;
+    let findings = within(evidence, assignment, &others(found, index), &[], |search| search.findings())?;
     // A mistake may be made in two places: each is one that is to be mended.
     findings.into_iter().next()
+}
+
+/// The others of the mistakes that were found.
+pub(super) fn others(found: &[FoundMistake], index: usize) -> Vec<FoundMistake> {
+    found.iter().enumerate().filter(|(at, _)| *at != index).map(|(_, other)| other.clone()).collect()
 }
 
 /// Whether the text computes what the right answer computes by this name, on the way of what is seen.
@@ -150,6 +169,11 @@ pub(super) fn computes(evidence: &Evidence<'_>, definition: &str) -> bool {
 /// The ids of the rubric's lines of which the text computes the very value that they judge, on the way of what is seen.
 pub(super) fn computed_lines(evidence: &Evidence<'_>) -> Vec<String> {
     within(evidence, evidence.assignment, &[], &[], |search| search.computed_lines()).unwrap_or_default()
+}
+
+/// The ids of the lines whose terms the text has as a right answer has them, whatever else is seen.
+pub(super) fn right_terms(evidence: &Evidence<'_>) -> Vec<String> {
+    within(evidence, evidence.assignment, &[], &[], |search| search.right_terms()).unwrap_or_default()
 }
 
 /// The ids of those of which it computes the value of some turns of a loop, and not of all.
@@ -224,6 +248,7 @@ fn within<T: Default>(
     let mut search = Search {
         evidence,
         assignment,
+        others,
         places: &places,
         in_quads: recording.in_quads,
         theirs,

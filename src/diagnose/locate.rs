@@ -54,6 +54,8 @@ pub(super) enum MistakeOrigin {
     Lost,
     /// The place writes over it.
     Overwritten,
+    /// The place writes over what is right, and makes nothing of it.
+    LeftBehind,
 }
 
 /// The line of the last statement that gives the position.
@@ -72,6 +74,8 @@ pub(super) struct TracedProbes<'a> {
     trace: Trace,
     trials: Trials<'a>,
     places: Vec<Place<'a>>,
+    /// What is seen at each place.
+    seen: Vec<DVec3>,
     /// How many samples each place has.
     each: usize,
 }
@@ -82,13 +86,13 @@ impl<'a> TracedProbes<'a> {
     pub fn new(evidence: &Evidence<'a>, assignment: &'a Assignment) -> Option<Self> {
         let chosen = chosen(evidence);
         let places = chosen.iter().map(|at| place(evidence, *at)).collect();
-        let (points, colours) = Self::of(evidence.source, evidence.traced?, assignment, places)?;
-        is_drawn(evidence, &chosen, &colours).then_some(points)
+        let points = Self::of(evidence.source, evidence.traced?, assignment, places)?;
+        is_drawn(evidence, &chosen, &points.seen).then_some(points)
     }
 
     /// Runs it under a circumstance of advice. `program`: the text with the circumstance's constants.
     pub fn beyond(evidence: &Evidence<'a>, beyond: &'a Beyond, program: &'a TracedProgram) -> Option<Self> {
-        Some(Self::of(evidence.source, program, &beyond.assignment, beyond.places())?.0)
+        Self::of(evidence.source, program, &beyond.assignment, beyond.places())
     }
 
     fn of(
@@ -96,7 +100,7 @@ impl<'a> TracedProbes<'a> {
         program: &'a TracedProgram,
         assignment: &'a Assignment,
         places: Vec<Place<'a>>,
-    ) -> Option<(Self, Vec<DVec3>)> {
+    ) -> Option<Self> {
         let stage = assignment.equation.reads().stage()?;
         if places.is_empty() {
             return None;
@@ -108,7 +112,8 @@ impl<'a> TracedProbes<'a> {
         let trials = Trials::new(assignment, program, &places, in_quads)?;
         let sites = program.stage(stage).sites();
         let each = if in_quads { 4 } else { 1 };
-        Some((Self { assignment, source, stage, sites, trace, trials, places, each }, seen.colours))
+        let seen = seen.colours;
+        Some(Self { assignment, source, stage, sites, trace, trials, places, seen, each })
     }
 
     /// The student's own names for the definitions, in the equation's order: of what is right, or else of what it is with these mistakes.
@@ -198,11 +203,15 @@ pub(super) fn mistake(
     let is_zero = missing.as_ref().is_some_and(|missing| missing.role == MistakeOrigin::Zero);
     // One slip of the text is what the student did, also where it shows as several mistakes, or in what is made of it.
     if let Some(slip) = known.slip {
-        let role = if is_zero { MistakeOrigin::Zero } else { slip.role };
+        let role = if is_zero { MistakeOrigin::Zero } else { MistakeOrigin::Wrong };
         return Some(Located { role, ..slip.clone() });
     }
     if is_zero {
         return missing;
+    }
+    // What returns early is missing wherever a condition holds.
+    if let Some(condition) = points.as_ref().and_then(|points| points.condition(found, index)) {
+        return Some(condition);
     }
     let one = known.only.cloned().or_else(|| inside::find_one(evidence, assignment, found, index));
     match (missing, one) {

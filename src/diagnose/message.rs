@@ -151,8 +151,12 @@ impl Facts {
             _ => Default::default(),
         };
         let only = if found.len() > 1 { inside::only(findings) } else { findings.into_iter().next() };
-        let known = locate::KnownPlaces { slip: slip.as_ref(), only: only.as_ref() };
-        let mut place = |index| locate::mistake(evidence, &theirs, &mut points, found, index, known);
+        let is_one_of_several = is_sought && slip.is_none() && found.len() > 1;
+        let mut place = |index| {
+            let own = if is_one_of_several { inside::slip_of(evidence, found, index) } else { None };
+            let known = locate::KnownPlaces { slip: slip.as_ref().or(own.as_ref()), only: only.as_ref() };
+            locate::mistake(evidence, &theirs, &mut points, found, index, known)
+        };
         let listed: Vec<(String, Listed)> = match &wrong {
             Some(wrong) => found.iter().map(|found| (found.id.clone(), wrong.of_mistake(evidence, found))).collect(),
             None => Vec::new(),

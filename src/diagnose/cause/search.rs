@@ -4,7 +4,7 @@ use super::unexplained::{alone, unexplained};
 use super::{Cause, HARD_CODED, NEARLY, spared, with_constants, worth};
 use crate::compare::{COLOUR_TOLERANCE, POSITION_TOLERANCE, position_difference};
 use crate::diagnose::constants::{self, ChangedConstant};
-use crate::diagnose::inside::{self, Repaired};
+use crate::diagnose::inside::{self, RepairAim, Repaired};
 use crate::diagnose::listed::Listed;
 use crate::diagnose::{Evidence, POSITION_CHANGED, addends, hard_coded, plain, position_scale};
 use crate::render::Sample;
@@ -115,16 +115,41 @@ pub(in crate::diagnose) fn cause(evidence: &Evidence<'_>, shape: bool) -> Cause 
                 by_term(begun)
             }
         }
+        // What was handed out may be left behind a right answer.
+        Fit::Explained(found)
+            if !frames_agree && is_handed_out(assignment, &found) && addends::computes_the_colour(evidence) =>
+        {
+            by_term(begun)
+        }
         // The course's own poses are treated apart from what explains all others.
         Fit::Explained(found) if frames_agree && hard_coded::leaves_nothing(assignment, &found) => Cause::HardCoded,
         // Some mistakes together come near to nearly anything.
         Fit::Explained(found) if found.len() > 1 && is_nearly_right() => nearly_right(evidence),
+        // One slip in how a function is written says more than what it does to several terms.
+        Fit::Explained(found)
+            if found.len() > 1
+                && let Some(cause) = in_a_body(evidence) =>
+        {
+            cause
+        }
         Fit::Explained(found) if is_dark(evidence.samples) && stands_elsewhere(evidence, &found) => by_term(begun),
         Fit::Explained(found) => Cause::known(found),
         Fit::Unexplained(_) if is_hard_coded() => Cause::HardCoded,
         Fit::Unexplained(_) if is_nearly_right() => nearly_right(evidence),
         Fit::Unexplained(terms) => unexplained(evidence, &alternatives, &samples, terms, begun),
     }
+}
+
+/// The one slip in how a function is written.
+fn in_a_body(evidence: &Evidence<'_>) -> Option<Cause> {
+    let repaired = inside::only_change(evidence, RepairAim::Body)?;
+    let lines = worth::charged(evidence.assignment, &[], &repaired);
+    (!lines.is_empty()).then(|| Cause::Repaired(vec![(lines, repaired)]))
+}
+
+/// Whether nothing was changed of what was handed out.
+fn is_handed_out(assignment: &Assignment, found: &[FoundMistake]) -> bool {
+    found.iter().any(|found| assignment.mistake(&found.id).is_some_and(|mistake| mistake.handed_out))
 }
 
 /// That it is never off by much, and the lines that have nothing to do with where it is.

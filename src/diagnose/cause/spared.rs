@@ -156,21 +156,28 @@ pub fn is_of_several_terms(assignment: &Assignment, found: &[FoundMistake]) -> b
 /// The ids of the lines whose terms show at probes that are right, and at none that is wrong: a mistake in their sum leaves them as they
 /// are. None where these are all.
 fn right_where_they_show(evidence: &Evidence<'_>) -> Vec<String> {
+    let assignment = evidence.assignment;
+    let terms: Vec<&RubricLine> = assignment.rubric.iter().filter(|line| !assignment.judges_position(line)).collect();
+    let shows = shows_at(evidence);
+    let is_spared = |line: &&&RubricLine| matches!(shows(line), [true, false]);
+    let spared: Vec<String> = terms.iter().filter(is_spared).map(|line| line.id.clone()).collect();
+    if spared.len() == terms.len() { Vec::new() } else { spared }
+}
+
+/// Whether the term that a line judges shows at a probe that is right, and whether at one that is wrong.
+pub fn shows_at<'e>(evidence: &'e Evidence<'_>) -> impl Fn(&RubricLine) -> [bool; 2] + 'e {
     let Evidence { assignment, probes, samples, .. } = *evidence;
     let right = assignment.equation.right();
     let values: Vec<_> = probes.iter().map(|probe| right.evaluate(probes.uniforms(probe), &probe.attributes)).collect();
     let is_right = |at: &usize| colour_difference(probes.probes[*at].colour, &samples[*at]) <= COLOUR_TOLERANCE;
-    let (right, wrong): (Vec<usize>, Vec<usize>) = (0..samples.len().min(values.len())).partition(is_right);
-    let terms: Vec<&RubricLine> = assignment.rubric.iter().filter(|line| !assignment.judges_position(line)).collect();
-    let is_spared = |line: &&&RubricLine| {
+    let places: (Vec<usize>, Vec<usize>) = (0..samples.len().min(values.len())).partition(is_right);
+    move |line| {
         let shows = |at: &usize| {
             let value = values[*at].get(&line.judges);
             value.is_some_and(|value| value.numbers().iter().any(|number| number.abs() > COLOUR_TOLERANCE))
         };
-        right.iter().any(shows) && !wrong.iter().any(shows)
-    };
-    let spared: Vec<String> = terms.iter().filter(is_spared).map(|line| line.id.clone()).collect();
-    if spared.len() == terms.len() { Vec::new() } else { spared }
+        [&places.0, &places.1].map(|places| places.iter().any(shows))
+    }
 }
 
 /// The lines of which the text computes what they judge. Where one of these `wrong` ones is left that judges a value, the ways in

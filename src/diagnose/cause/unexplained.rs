@@ -4,15 +4,17 @@ use super::search::{is_dark, is_there};
 use super::{Cause, spared, with_constants, worth};
 use crate::compare::COLOUR_TOLERANCE;
 use crate::diagnose::constants::{self, ChangedConstant};
-use crate::diagnose::inside::{self, Finding, Flaw, Repaired};
+use crate::diagnose::inside::{self, Finding, Flaw, RepairAim, Repaired};
 use crate::diagnose::listed::Listed;
 use crate::diagnose::locate::{self, TracedProbes};
 use crate::diagnose::{Evidence, addends, plain};
 use reference::Assignment;
+use reference::assignment::RubricLine;
 use reference::fit::{
     Alternatives, FeatureDefect, FeatureExplanation, Fit, MOST_MISTAKES, TermJudgement, explain_derived, explain_parts,
     judge_factor, judge_features, programs_of,
 };
+use reference::interpreter::Operator;
 use reference::mistake::FoundMistake;
 use reference::probes::ProbeSet;
 
@@ -36,7 +38,9 @@ pub(super) fn alone(
         return Ok(Cause::unexplained(listed.terms(evidence), Vec::new()));
     }
     let parts = match explain_parts(alternatives, samples, &is_there(evidence), COLOUR_TOLERANCE) {
-        Some(parts) if parts.found.is_empty() && parts.is_missing() => return Ok(Cause::Parts(parts)),
+        Some(parts) if parts.found.is_empty() && parts.is_missing() => {
+            return Ok(unless_gated(evidence, Cause::Parts(parts)));
+        }
         parts => parts,
     };
     // What a lecturer wrote down says more than that a feature is missing.
@@ -57,6 +61,17 @@ pub(super) fn alone(
     }
 }
 
+/// The cause, or the one condition by which the parts are missing, where they show elsewhere as they should.
+fn unless_gated(evidence: &Evidence<'_>, cause: Cause) -> Cause {
+    let Cause::Parts(parts) = &cause else { return cause };
+    let lines: Vec<&RubricLine> = parts.parts.iter().map(|(line, _)| &evidence.assignment.rubric[*line]).collect();
+    let shows = spared::shows_at(evidence);
+    let condition =
+        lines.iter().all(|line| shows(line)[0]).then(|| inside::only_change(evidence, RepairAim::Condition)).flatten();
+    let lines = lines.into_iter().map(|line| line.id.clone()).collect();
+    condition.map_or(cause, |condition| Cause::Repaired(vec![(lines, condition)]))
+}
+
 /// What no known mistake explains: by the features, or else each term as far as it stands alone, or shows by itself. `begun`: what
 /// [`alone`] gave, where it was asked already.
 pub(super) fn unexplained(
@@ -69,7 +84,8 @@ pub(super) fn unexplained(
     let Evidence { assignment, probes, .. } = *evidence;
     let others = match begun.unwrap_or_else(|| alone(evidence, alternatives, samples)) {
         Ok(cause) if cause.is_of_several_terms(assignment) => {
-            return lacking(assignment, &inside::find(evidence)).unwrap_or(cause);
+            let lacking = lacking(assignment, &inside::find(evidence));
+            return lacking.map_or(cause, |lacking| unless_gated(evidence, lacking));
         }
         Ok(cause) => return cause,
         Err(others) => others,
@@ -92,10 +108,10 @@ pub(super) fn unexplained(
     // and what writes over it is right.
     let is_one = |cause: &Cause| matches!(cause, Cause::Parts(own) if own.parts.len() == 1);
     let is_lost = || findings.iter().any(|finding| finding.flaw == Flaw::Overwrites);
-    if let Some(cause) =
-        lacking(assignment, &findings).filter(|cause| repairs.is_empty() || is_lost() || !is_one(cause))
-    {
-        return cause;
+    let is_in_a_body = matches!(&repairs[..], [only] if only.operator.is_some_and(Operator::is_of_a_body));
+    let lacking = lacking(assignment, &findings).filter(|_| !is_in_a_body);
+    if let Some(cause) = lacking.filter(|cause| repairs.is_empty() || is_lost() || !is_one(cause)) {
+        return unless_gated(evidence, cause);
     }
     let terms = match judge_factor(assignment, probes, samples, COLOUR_TOLERANCE) {
         Some(terms) => terms,
@@ -104,9 +120,8 @@ pub(super) fn unexplained(
             spared::by_outputs(evidence, spared::beside(evidence, addends::credit(evidence, terms), &findings))
         }
     };
-    let terms = spared::beside_holes(evidence, terms);
-    let wrong = if repairs.is_empty() { terms.clone() } else { spared::computed(evidence, terms.clone()) };
-    let repairs = repairs.into_iter().map(|repaired| (worth::charged(assignment, &wrong, &repaired), repaired));
+    let terms = spared::computed(evidence, spared::beside_holes(evidence, terms));
+    let repairs = repairs.into_iter().map(|repaired| (worth::charged(assignment, &terms, &repaired), repaired));
     let repairs: Vec<(Vec<String>, Repaired)> = repairs.collect();
     if repairs.is_empty() || repairs.iter().any(|(lines, _)| lines.is_empty()) {
         return sought.unwrap_or_else(several).unwrap_or(Cause::unexplained(terms, findings));

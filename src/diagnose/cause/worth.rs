@@ -41,7 +41,7 @@ pub fn kept(assignment: &Assignment, line: &RubricLine, shape: bool, cause: &Cau
         (Cause::Known { constants, .. }, CONSTANTS_CHANGED) => {
             constants.iter().any(|changed| belongs(assignment, &changed.name, line))
         }
-        (Cause::Known { spared, .. }, id) if is_derived(id) && spared.contains(&line.id) => false,
+        (Cause::Known { spared, .. }, _) if spared.contains(&line.id) => false,
         (Cause::NearlyRight(spared), NEARLY_RIGHT) if spared.contains(&line.id) => false,
         (Cause::Known { found, .. } | Cause::Parts(FeatureExplanation { found, .. }), _)
             if let Some(found) = found.iter().find(|found| found.id == id) =>
@@ -67,9 +67,12 @@ pub(super) fn charged(assignment: &Assignment, terms: &[TermJudgement], repaired
     lines
 }
 
-/// Those that are about the variable that it is in, or those within whose features it is; else those of which it spoils what they
+/// Those whose terms it changes, where that is known; those that are about the variable that it is in, or those within whose features it is; else those of which it spoils what they
 /// judge, but for terms that are right by themselves. Where it spoils none of these, such as a sum, all that are not right.
 fn of_colour(assignment: &Assignment, terms: &[TermJudgement], repaired: &Repaired) -> Vec<String> {
+    if !repaired.terms.is_empty() {
+        return repaired.terms.clone();
+    }
     let is_wrong = |line: &&RubricLine| terms.iter().any(|term| term.line == line.id && !term.is_right());
     // What cannot be judged by itself is not known to be right.
     let is_right = |line: &&RubricLine| terms.iter().any(|term| term.line == line.id && term.is_right());

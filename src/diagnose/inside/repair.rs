@@ -7,8 +7,10 @@
 
 mod chained;
 mod ingredients;
+mod marks;
 mod meaning;
 mod repaired;
+mod verified;
 
 pub(in crate::diagnose) use repaired::Repaired;
 
@@ -16,13 +18,11 @@ use chained::Mending;
 
 use super::search::{Search, is_right};
 use super::{Finding, Place, Seen, Stage, TracedProgram};
-use crate::compare::{COLOUR_TOLERANCE, POSITION_TOLERANCE};
-use crate::diagnose::columns::is_colour;
+use crate::compare::COLOUR_TOLERANCE;
 use crate::diagnose::locate::Located;
 use crate::diagnose::trials::{FIRST, FUEL_OF_TRACE, StageChanges};
 use crate::translate;
-use glam::DVec3;
-use reference::interpreter::{Ingredients, ProgramRepair, Repairable};
+use reference::interpreter::{Ingredients, Operator, ProgramRepair, Repairable};
 use reference::traced::Bench;
 
 /// So many changes are tried for one repair, and so many for a second one. Each is compiled, and run at a few places first: a hundred
@@ -62,7 +62,12 @@ impl RepairAttempt {
     fn changes<'t>(&'t self, scope: RepairScope<'t>) -> impl Iterator<Item = RepairStep> {
         scope.lines.iter().flat_map(move |StageLines { stage, lines, near }| {
             let all = self.text(*stage).map(|text| text.repairs(lines, *near, scope.right));
-            let is_known = move |repair: &ProgramRepair| scope.aim != RepairAim::Slip || repair.is_of_its_line();
+            let is_known = move |repair: &ProgramRepair| match scope.aim {
+                RepairAim::Slip => repair.is_of_its_line(),
+                RepairAim::Condition => repair.mistake == Operator::Gated,
+                RepairAim::Body => repair.mistake.is_of_a_body(),
+                RepairAim::More | RepairAim::All => true,
+            };
             let all = all.into_iter().flatten().filter(is_known);
             all.map(|repair| (*stage, repair))
         })
@@ -102,13 +107,17 @@ struct RepairScope<'l> {
 
 /// Which changes count.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum RepairAim {
+pub(in crate::diagnose) enum RepairAim {
     /// Those that make more right.
     More,
     /// Those that make all right.
     All,
     /// Those of them that are known to be on their line.
     Slip,
+    /// Those of them that take a condition away.
+    Condition,
+    /// Those of them that concern how a function is written.
+    Body,
 }
 
 impl Search<'_, '_> {
@@ -135,10 +144,15 @@ impl Search<'_, '_> {
 
     /// The one slip of the text without which all is right.
     pub fn slip(&self, findings: &[Finding]) -> Option<Located> {
+        Some(self.only(findings, RepairAim::Slip)?.located)
+    }
+
+    /// The one change of a kind by which all is right.
+    pub fn only(&self, findings: &[Finding], aim: RepairAim) -> Option<Repaired> {
         let attempt = self.first_attempt();
         let (lines, right) = (&self.lines(findings), &self.ingredients());
-        match self.step(&attempt, RepairScope { lines, right, most: MOST_SLIPS, aim: RepairAim::Slip }) {
-            RepairOutcome::Right(step) => Some(self.repaired(&attempt, &step)?.located),
+        match self.step(&attempt, RepairScope { lines, right, most: MOST_SLIPS, aim }) {
+            RepairOutcome::Right(step) => self.repaired(&attempt, &step),
             RepairOutcome::Better(_) => None,
         }
     }
@@ -190,12 +204,14 @@ impl Search<'_, '_> {
         let is_worse = |now: &[bool]| before.iter().zip(now).any(|(before, now)| *before && !now);
         let mut verified = 0;
         let wanted = attempt.part.as_ref().map_or(self.wanted, |[seen, _]| seen);
-        for step in attempt.changes(scope).take(scope.most) {
+        // Statements in another order are few, and come last.
+        let is_tried = |(number, (_, repair)): &(usize, RepairStep)| *number < scope.most || repair.is_of_order();
+        for (_, step) in attempt.changes(scope).enumerate().filter(is_tried) {
             let Some(program) = attempt.with(&step) else { continue };
             let Some(seen) = self.shown(&program, first, FUEL_OF_FIRST) else { continue };
             let is_no_use = match scope.aim {
-                RepairAim::All | RepairAim::Slip => !is_right(wanted, &seen, first.len()),
                 RepairAim::More => is_worse(&self.right_channels(&seen)),
+                _ => !is_right(wanted, &seen, first.len()),
             };
             if is_no_use {
                 continue;
@@ -218,10 +234,11 @@ impl Search<'_, '_> {
         RepairOutcome::Better(better.into_iter().map(|(_, step, seen)| (step, seen)).collect())
     }
 
-    fn after(&self, attempt: &RepairAttempt, step: &RepairStep) -> Option<RepairAttempt> {
-        let mut next = RepairAttempt { program: attempt.with(step)?, ..attempt.clone() };
-        let (_, text) = next.texts.iter_mut().find(|(own, _)| *own == step.0)?;
-        *text = text.with(&step.1);
+    fn after(&self, attempt: &RepairAttempt, (stage, repair): &RepairStep) -> Option<RepairAttempt> {
+        let mut next = attempt.clone();
+        let (_, text) = next.texts.iter_mut().find(|(own, _)| own == stage)?;
+        *text = text.with(repair);
+        next.program = attempt.program.with(*stage, text.as_it_is()?)?;
         Some(next)
     }
 
@@ -255,24 +272,5 @@ impl Search<'_, '_> {
         let pairs = seen.colours.iter().zip(&self.wanted.colours);
         let channels = pairs.flat_map(|(own, wanted)| own.to_array().into_iter().zip(wanted.to_array()));
         channels.map(|(own, wanted)| (own - wanted).abs() <= COLOUR_TOLERANCE * wanted.abs().max(1.0)).collect()
-    }
-
-    /// Whether a program is right at every judging probe, and not elsewhere another one.
-    fn holds_everywhere(&self, program: &TracedProgram) -> bool {
-        let all = [self.evidence.probes, self.evidence.fresh.probes];
-        let [judging, fresh] = all.map(|probes| {
-            let places = Place::all(probes);
-            let seen = self.shown(program, &places, FUEL_OF_TRACE)?;
-            let is_right = |(place, (colour, position)): (&Place<'_>, (&DVec3, &glam::DVec4))| {
-                let largest = place.probe.position.abs().max_element().max(f64::MIN_POSITIVE);
-                let is_there = self.assignment.equation.reads() != reference::equation::Reads::Attributes
-                    || (*position - place.probe.position).abs().max_element() <= POSITION_TOLERANCE * largest;
-                is_colour(place.probe.colour, *colour) && is_there
-            };
-            let pairs = places.iter().zip(seen.colours.iter().zip(&seen.positions));
-            Some(pairs.map(is_right).collect::<Vec<bool>>())
-        });
-        let (Some(judging), Some(fresh)) = (judging, fresh) else { return false };
-        judging.iter().all(|is| *is) && !self.evidence.fresh.is_contradicted(|place| !fresh[place])
     }
 }

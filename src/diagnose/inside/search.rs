@@ -21,6 +21,8 @@ const MOST_BEGINNINGS: usize = 200;
 pub(super) struct Search<'s, 'a> {
     pub evidence: &'s Evidence<'a>,
     pub assignment: &'s Assignment,
+    /// The mistakes that a right answer has.
+    pub others: &'s [FoundMistake],
     pub places: &'s [Place<'s>],
     pub in_quads: bool,
     pub theirs: &'s TracedProgram,

@@ -21,6 +21,15 @@ pub fn overwrites(line: u32, name: &Option<String>) -> Text {
     )
 }
 
+/// That a line writes over what is right.
+pub fn left_behind(line: u32, name: &Option<String>) -> Text {
+    let (en, ja) = (named(name, "", "").0, named(name, "", "の").1);
+    Text::new(
+        format!("Line {line} writes over what{en} held before. Is that line still needed?"),
+        format!("{line} 行目で、それまでの{ja}値が上書きされています。この行は、まだ必要でしょうか。"),
+    )
+}
+
 impl Finding {
     /// Where to look, and what is not right there. `name`: what a definition is called.
     pub fn sentence(&self, assignment: &Assignment) -> Text {

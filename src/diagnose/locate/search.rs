@@ -1,5 +1,6 @@
 //! The search for the statement that computes a definition, or for the sum that lacks it.
 
+use super::super::inside::others;
 use super::{Located, MistakeOrigin, TracedProbes};
 use crate::diagnose::columns::{ScalarColumns, fits, is_colour, is_same, is_zero, shaped};
 use crate::diagnose::trials::{StageChanges, change};
@@ -7,6 +8,7 @@ use glam::DVec3;
 use reference::interpreter::Binary;
 use reference::interpreter::trace::{Site, ValueChange, What};
 use reference::mistake::{FoundMistake, Mistake};
+use std::collections::BTreeSet;
 
 /// A mistake that makes something 0 everywhere that should not be.
 struct Missing {
@@ -67,9 +69,37 @@ impl TracedProbes<'_> {
         Some(Located { role, ..Located::at(stores(true).or_else(|| stores(false))?.line) })
     }
 
+    /// The condition that decides where a mistake shows that is one: all is right on the other side of it.
+    pub fn condition(&self, found: &[FoundMistake], index: usize) -> Option<Located> {
+        let own = self.assignment.mistake(&found[index].id)?.forms.get(found[index].form)?;
+        if !own.overrides.iter().any(|one| one.text.contains('?')) {
+            return None;
+        }
+        let wanted = self.colours(&self.assignment.variant(&others(found, index))?);
+        let is_wrong: Vec<bool> =
+            self.seen.iter().zip(&wanted).map(|(own, wanted)| !is_colour(*wanted, *own)).collect();
+        let events = self.trace.events.iter();
+        let conditions: BTreeSet<usize> = events.flat_map(|event| event.under.iter().copied()).collect();
+        let shares =
+            conditions.into_iter().flat_map(|at| [0.0, 1.0].map(|side| (at, side))).filter_map(|(at, side)| {
+                let event = &self.trace.events[at];
+                let is_there = |place: usize| {
+                    let lane = place * self.each;
+                    event.lanes[lane] && event.values[0][lane] == side
+                };
+                let there: Vec<usize> = (0..is_wrong.len()).filter(|place| is_there(*place)).collect();
+                let wrong = there.iter().filter(|place| is_wrong[**place]).count();
+                let is_all = wrong > 0 && wrong == is_wrong.iter().filter(|is| **is).count();
+                (is_all && there.len() < is_wrong.len() && self.is_own(event)).then_some((at, there.len()))
+            });
+        // By as little as may be besides.
+        let (found, _) = shares.min_by_key(|(_, all)| *all)?;
+        Some(self.located(found, MistakeOrigin::Wrong))
+    }
+
     fn of_mistake(&mut self, found: &[FoundMistake], index: usize) -> Option<Missing> {
         let found_one = found.get(index)?;
-        let others: Vec<FoundMistake> = found.iter().filter(|other| *other != found_one).cloned().collect();
+        let others = others(found, index);
         let assignment = self.assignment;
         let mistake = assignment.mistake(&found_one.id)?;
         let (without, with) = (assignment.variant(&others)?, assignment.variant(found)?);

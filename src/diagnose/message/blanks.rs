@@ -85,8 +85,11 @@ impl<'f> Blanks<'f> {
                     blanks.is_at(evidence, source, line);
                 }
             }
-            (Cause::Repaired(_), id) => {
-                let repaired = cause.repairs().find(|repaired| repaired.mistake.id == id);
+            (Cause::Repaired(repairs), id) => {
+                // The same may be done twice: each has its own lines.
+                let of_id = || repairs.iter().filter(|(_, repaired)| repaired.mistake.id == id);
+                let own = of_id().find(|(lines, _)| lines.contains(&line.id)).or(of_id().next());
+                let repaired = own.map(|(_, repaired)| repaired);
                 blanks.place(evidence, mistake, repaired.map(|repaired| repaired.located.clone()));
                 if let Some([expected, found]) = repaired.and_then(|repaired| repaired.numbers.clone()) {
                     blanks.values.extend([("expected", expected), ("found", found)]);
@@ -116,16 +119,20 @@ impl<'f> Blanks<'f> {
     /// What is said where the line writes over what the mistake is about.
     pub fn overwritten(&self) -> Option<Text> {
         let name = self.values.iter().find(|(name, _)| *name == "name").map(|(_, own)| own.clone());
-        let line = self.line.filter(|_| self.role == Some(MistakeOrigin::Overwritten))?;
-        Some(inside::overwrites(line, &name))
+        match self.role? {
+            MistakeOrigin::Overwritten => Some(inside::overwrites(self.line?, &name)),
+            MistakeOrigin::LeftBehind => Some(inside::left_behind(self.line?, &name)),
+            _ => None,
+        }
     }
 
     fn place(&mut self, evidence: &'f Evidence<'_>, mistake: &Mistake, located: Option<Located>) {
         let Some(Located { line, name, role, stage }) = located else { return };
         self.role = Some(role);
         let (source, starter) = evidence.text(stage);
-        // A line that the student did not write is not where the student's mistake is.
-        if !mistake.handed_out && is_handed_out(source, line, starter) {
+        // A line that the student did not write is not where the student's mistake is, unless it was left there.
+        let may_be_left = mistake.handed_out || role == MistakeOrigin::LeftBehind;
+        if !may_be_left && is_handed_out(source, line, starter) {
             return;
         }
         self.is_at(evidence, source, line);

@@ -8,9 +8,8 @@ use crate::compare::COLOUR_TOLERANCE;
 use crate::diagnose::Evidence;
 use crate::diagnose::cause::{is_there, leaves_little};
 use crate::diagnose::inside::chain::Link;
-use crate::diagnose::inside::search::{Search, is_right};
-use crate::diagnose::inside::{Place, Recorded, TracedProgram, find};
-use crate::diagnose::trials::StageChanges;
+use crate::diagnose::inside::search::Search;
+use crate::diagnose::inside::{Place, Recorded, find};
 use crate::render::Sample;
 use glam::DVec3;
 use reference::fit::{Alternatives, programs_showing};
@@ -78,18 +77,5 @@ impl Search<'_, '_> {
         let finding = find(&evidence).into_iter().next().or_else(|| Some(next?.finding.clone()))?;
         let mistake = assignment.mistake(&found.id)?.clone();
         Some(self.known_at(mistake, &finding))
-    }
-
-    /// Whether what makes all right does so at every probe. What is seen with other mistakes is known at the chosen ones only, and is
-    /// looked at without the bounds of a colour, which hide much of it.
-    pub(super) fn is_verified(&self, attempt: &RepairAttempt, step: &RepairStep, program: &TracedProgram) -> bool {
-        let (stage, repair) = step;
-        let Some([_, unclamped]) = &attempt.part else {
-            return self.holds_everywhere(program) && !self.is_by_chance(attempt, step);
-        };
-        // What is bounded is bounded alike only where both can be traced.
-        let traced = attempt.text(*stage).and_then(|text| program.with(*stage, text.traced(repair)?));
-        let seen = traced.and_then(|program| self.unclamped(&program, &StageChanges::default()));
-        seen.is_some_and(|seen| is_right(unclamped, &seen, self.count))
     }
 }

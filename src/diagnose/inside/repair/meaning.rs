@@ -1,8 +1,10 @@
 //! What a change of the text means: which definition of the right answer it concerns.
 
+use super::marks::{
+    computed_from_the_mark, is_count, is_marked, is_number_too_many, is_of_use, made_for, reached_values,
+};
 use super::{RepairAttempt, RepairStep, Repaired};
 use crate::diagnose::columns::{is_colour, is_constant, is_equal, is_same};
-use crate::diagnose::inside::around::ReachedValue;
 use crate::diagnose::inside::candidates::Mend;
 use crate::diagnose::inside::chain::Link;
 use crate::diagnose::inside::quantities::Quantity;
@@ -10,9 +12,10 @@ use crate::diagnose::inside::search::Search;
 use crate::diagnose::inside::{Finding, Flaw, variable};
 use crate::diagnose::locate::{Located, MistakeOrigin};
 use crate::diagnose::trials::{FUEL_OF_TRACE, StageChanges};
+use crate::source::words;
 use reference::equation::DISCARDED;
-use reference::interpreter::trace::{Event, Site, Trace, What};
-use reference::interpreter::{Binary, DISCARD, Operator, Program, ProgramRepair, Scalar, Stage};
+use reference::interpreter::trace::{Event, Trace, What};
+use reference::interpreter::{DISCARD, Operator, Program, ProgramRepair, Stage};
 use reference::mistake::Mistake;
 use reference::traced::{Bench, Seen, TracedProgram};
 
@@ -45,19 +48,26 @@ impl Search<'_, '_> {
         let is_of_loop = marks.is_some_and(|site| is_count(program.sites(), site));
         let definition = definition.filter(|_| !is_of_loop);
         let definition = definition.or_else(|| self.decides_what_is_drawn(attempt, &seen).then(|| DISCARD.to_owned()));
+        let terms = self.changed_terms(&attempt.program, &marked).unwrap_or_default();
+        let definition = definition.filter(|name| self.goes_into_all(name, &terms));
         let mistake = self.assignment.repaired(operator, definition.as_deref(), repair.is_bound_by_zero);
         // What another value stands for is what it is used for.
         let is_used = definition.is_none() || is_of_use(repair.mistake);
         let name_of = if is_used { made_for } else { variable };
         let name = marks.and_then(|site| name_of(program.sites(), site));
+        let left = left_behind(&repair.texts);
+        let role = if left.is_some() { MistakeOrigin::LeftBehind } else { MistakeOrigin::Wrong };
+        let name = left.or(name);
         Some(Repaired {
             mistake,
-            located: Located { line: repair.line, name, role: MistakeOrigin::Wrong, stage: Some(*stage) },
+            operator: Some(operator),
+            located: Located { line: repair.line, name, role, stage: Some(*stage) },
             texts: repair.texts.clone(),
             numbers: None,
             lines: if is_of_loop { Vec::new() } else { self.lines_that_it_is_in(program, &trace, repair.mistake) },
             moves: self.stands_elsewhere(&attempt.seen) && self.is_in_place(&seen),
             touches: definition.map_or_else(Vec::new, |name| self.quantities.spoilt_by(*stage, &name)),
+            terms,
             written_over: self.held_before(*stage, program, &trace),
         })
     }
@@ -129,12 +139,14 @@ impl Search<'_, '_> {
             self.texts(finding.stage).map_or_else(String::new, |(_, source)| source.line(finding.line).into());
         Repaired {
             mistake,
+            operator: None,
             located: finding.located(),
             texts: [written, String::new()],
             numbers: None,
             lines: Vec::new(),
             moves: false,
             touches: finding.touches.clone(),
+            terms: Vec::new(),
             written_over: Vec::new(),
         }
     }
@@ -224,75 +236,10 @@ impl Search<'_, '_> {
     }
 }
 
-/// Whether another value is the wrong one in what is made of it.
-fn is_of_use(mistake: Operator) -> bool {
-    matches!(mistake, Operator::OtherValue | Operator::OtherMatrix | Operator::OtherComponents | Operator::OtherNumber)
-}
-
-/// The variable that is given what was changed; of what is read, the one that it is read for.
-fn made_for(sites: &[Site], site: usize) -> Option<String> {
-    if !matches!(sites[site].what, What::Read(_)) {
-        return variable(sites, site);
-    }
-    let mut own = site;
-    // Operands stand before what is made of them.
-    while let Some(user) = (own + 1..sites.len()).find(|user| sites[*user].operands.contains(&own)) {
-        if let What::Assign { name, .. } = &sites[user].what {
-            return Some(name.clone());
-        }
-        own = user;
-    }
-    None
-}
-
-/// Whether a whole number is given to a variable, or compared.
-fn is_count(sites: &[Site], site: usize) -> bool {
-    let is_whole = matches!(sites[site].kind.scalar(), Some(Scalar::Int | Scalar::Uint));
-    let counts = |what: &What| match what {
-        What::Assign { .. } => true,
-        What::Binary(operator) => {
-            matches!(operator, Binary::Less | Binary::LessEqual | Binary::Greater | Binary::GreaterEqual)
-        }
-        _ => false,
-    };
-    is_whole && sites.iter().any(|user| user.operands.contains(&site) && counts(&user.what))
-}
-
-/// Whether a value is what was changed.
-fn is_marked(program: &Program, event: &Event) -> bool {
-    program.sites()[event.site].line == ProgramRepair::MARK
-}
-
-/// Whether each value is what was changed, or is computed from it.
-fn computed_from_the_mark(program: &Program, trace: &Trace) -> Vec<bool> {
-    let mut is_computed: Vec<bool> = trace.events.iter().map(|event| is_marked(program, event)).collect();
-    for (number, event) in trace.events.iter().enumerate() {
-        is_computed[number] |= event.from.iter().any(|from| is_computed[*from]);
-    }
-    is_computed
-}
-
-/// What was changed, and what is computed from it or decided by it, in this order; none that is the same everywhere. Another value is
-/// the wrong one in what is made of it.
-fn reached_values<'t>(program: &Program, trace: &'t Trace, mistake: Operator) -> Vec<ReachedValue<'t>> {
-    let is_marked = |event: &Event| is_marked(program, event);
-    let is_computed = computed_from_the_mark(program, trace);
-    let mut is_reached: Vec<bool> = trace.events.iter().map(is_marked).collect();
-    for (number, event) in trace.events.iter().enumerate() {
-        is_reached[number] |= event.from.iter().chain(&event.under).any(|from| is_reached[*from]);
-    }
-    let last = trace.events.iter().rposition(is_marked).unwrap_or(trace.events.len());
-    let first = last + usize::from(is_of_use(mistake));
-    let reached = trace.events.iter().enumerate().skip(first);
-    let reached = reached.filter(|(number, event)| is_reached[*number] && !is_constant(&event.values));
-    reached.map(|(number, event)| ReachedValue { values: &event.values, is_made_there: is_computed[number] }).collect()
-}
-
-/// Whether a number goes that something is multiplied by, or that is added to it.
-fn is_number_too_many(repair: &ProgramRepair) -> bool {
-    let [before, after] = &repair.texts;
-    let is_number = |word: &str| word.starts_with(|c: char| c.is_ascii_digit() || c == '.');
-    let mut gone = before.split(|c: char| !(c.is_ascii_alphanumeric() || "_.".contains(c)));
-    matches!(repair.mistake, Operator::Scaled | Operator::Shifted)
-        && gone.all(|word| word.is_empty() || after.contains(word) || is_number(word))
+/// The variable of an assignment that has to go, where that does not make something of what the variable holds.
+fn left_behind([written, instead]: &[String; 2]) -> Option<String> {
+    let (to, from) = written.split_once('=').filter(|_| instead.is_empty())?;
+    let makes_something = to.trim_end().ends_with(['+', '-', '*', '/']);
+    let (_, name) = words(to).next().filter(|_| !makes_something)?;
+    (!words(from).any(|(_, word)| word == name)).then(|| name.to_owned())
 }

@@ -3,6 +3,7 @@
 use crate::diagnose::Evidence;
 use crate::diagnose::locate::Located;
 use crate::{report, source};
+use reference::interpreter::Operator;
 use reference::mistake::Mistake;
 
 /// A change by which something becomes right.
@@ -10,6 +11,8 @@ use reference::mistake::Mistake;
 pub(in crate::diagnose) struct Repaired {
     /// The mistake that it undoes.
     pub mistake: Mistake,
+    /// What kind of mistake that is; none of one that the homework names.
+    pub operator: Option<Operator>,
     /// Where it is.
     pub located: Located,
     /// What is written there, and what belongs there.
@@ -22,6 +25,8 @@ pub(in crate::diagnose) struct Repaired {
     pub moves: bool,
     /// The variables of the right answer that are wrong with the mistake: the one that it is in, and those computed from it.
     pub touches: Vec<String>,
+    /// The lines of the rubric whose terms it changes, where that is known.
+    pub terms: Vec<String>,
     /// What the text writes over where it should be kept, by the names of the right answer, where that is known.
     pub written_over: Vec<String>,
 }

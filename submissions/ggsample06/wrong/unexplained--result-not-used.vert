@@ -1,0 +1,39 @@
+#version 410 core
+
+// The light: its position (w = 0: parallel rays), and what it sends out.
+const vec4 pl = vec4(0.0, 0.0, 1.0, 0.0);
+const vec4 lamb = vec4(0.2, 0.2, 0.2, 1.0);
+const vec4 ldiff = vec4(1.0, 1.0, 1.0, 0.0);
+const vec4 lspec = vec4(1.0, 1.0, 1.0, 0.0);
+
+// The surface: what it sends back of that.
+const vec4 kamb = vec4(0.6, 0.0, 0.0, 1.0);
+const vec4 kdiff = vec4(0.6, 0.0, 0.0, 1.0);
+const vec4 kspec = vec4(0.4, 0.4, 0.4, 1.0);
+const float kshi = 80.0;
+
+layout (location = 0) in vec4 pv;
+in vec4 cv;
+
+uniform mat4 mw;
+uniform mat4 mc;
+uniform mat4 mg;
+
+out vec4 vc;
+
+vec4 lit(vec4 sum, vec3 n, vec3 l, vec3 v)
+{
+    vec3 h = normalize(l + v);
+    sum += max(dot(n, l), 0.0) * kdiff * ldiff;
+    sum += pow(max(dot(n, h), 0.0), kshi) * kspec * lspec;
+    return sum;
+}
+
+void main()
+{
+    vec4 eye = mw * pv;
+    vec4 colour = kamb * lamb;
+    lit(colour, normalize((mg * cv).xyz), normalize(pl.xyz), normalize(-eye.xyz));
+    vc = colour;
+    gl_Position = mc * pv;
+}
