@@ -61,6 +61,11 @@ pub fn picture(frame: &Frame) -> Picture {
 /// term alone brings into the picture is held against the most that it brings at any pose, and the least of these shares
 /// is what a pose is worth.
 pub fn telling_pose(assignment: &Assignment) -> usize {
+    static TOLD: DrawnOnce<usize> = DrawnOnce::empty();
+    TOLD.of(assignment, || [told_pose(assignment)].into())[0]
+}
+
+fn told_pose(assignment: &Assignment) -> usize {
     let right = assignment.equation.right();
     let poses = assignment.scene.all_poses();
     let terms = assignment.rubric.iter().filter(|line| !line.alone_in.is_empty());

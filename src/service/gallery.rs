@@ -7,7 +7,7 @@
 
 mod right;
 
-pub use right::{RightPictures, goal};
+pub use right::{RightPictures, draw_all, drawn, goal, portrait_of_right};
 
 use super::State;
 use super::blocking::blocking;

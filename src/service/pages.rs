@@ -50,14 +50,16 @@ pub fn router(service: &Service) -> Router<Service> {
     let mut routes = of_service();
     for state in service.homeworks() {
         let page = state.place();
+        let drawn = from_fn_with_state(state.clone(), hand_in::drawn);
         let seen = from_fn_with_state(state.clone(), hand_in::seen);
-        let student: Router<Service> = hand_in::router().layer(seen.clone()).with_state(state.clone());
-        let teacher: Router<Service> = teacher::router().with_state(state.clone());
+        let student: Router<Service> =
+            hand_in::router().layer(drawn.clone()).layer(seen.clone()).with_state(state.clone());
+        let teacher: Router<Service> = teacher::router().layer(drawn.clone()).with_state(state.clone());
         routes = if service.has_several() {
             routes.nest(&page, student.merge(teacher))
         } else {
             let moved = homeworks::of_the_only_one().with_state(state.clone());
-            let first = Router::new().route("/", get(hand_in::desk)).layer(seen).with_state(state);
+            let first = Router::new().route("/", get(hand_in::desk)).layer(drawn).layer(seen).with_state(state);
             routes.nest(&page, student.merge(moved)).merge(teacher).merge(first)
         };
     }

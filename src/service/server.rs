@@ -11,7 +11,7 @@ use super::clock::Clock;
 use super::grading::Graders;
 use super::identity::new_token;
 use super::store::{Store, StoreError};
-use super::{Config, Service, api, app, folders, layered, lti, metrics, upkeep};
+use super::{Config, Service, api, app, folders, gallery, layered, lti, metrics, upkeep};
 use crate::fault::Fault;
 use crate::language::Text;
 use crate::sandbox::{Pool, Settings};
@@ -61,6 +61,7 @@ pub async fn start(mut config: Config, assignments: Vec<Arc<Assignment>>) -> Res
     tokio::spawn(upkeep::run(service.clone()));
     if service.config.role.serves_pages() {
         tokio::spawn(lti::scores::run(service.clone()));
+        tokio::spawn(gallery::draw_all(service.clone()));
     }
     Ok(Started { address, service, one_time_token, listener, graders })
 }

@@ -24,6 +24,7 @@ on_both!(
     restarts_keep_them_apart,
     what_is_not_served_waits,
     a_changed_folder_shows_no_picture_of_the_old_one,
+    a_list_waits_for_no_picture_and_many_who_want_one_get_the_same,
 );
 
 /// The token that opens the class of the second homework.
@@ -250,5 +251,32 @@ async fn a_changed_folder_shows_no_picture_of_the_old_one(database: Database) {
     for (old, new) in before.iter().zip(pictures(&bench).await) {
         assert_ne!(*old, new, "a picture of the folder as it was");
     }
+    bench.finish().await;
+}
+
+async fn a_list_waits_for_no_picture_and_many_who_want_one_get_the_same(database: Database) {
+    let bench = bench(database).await;
+    let digest = &waves().digest[..16];
+    let picture = format!("/a/waves/portrait.png?v={digest}");
+    for address in ["/", "/teacher", "/a/waves/teacher"] {
+        let page = bench.send(request("GET", address, crate::bench::TEACHER, "text/plain", Body::empty())).await;
+        assert_eq!(page.status, StatusCode::OK, "{address}");
+        assert!(page.text().contains(&picture) && !page.text().contains("data:image"), "{address}: {}", page.text());
+    }
+    let mut asked = tokio::task::JoinSet::new();
+    for address in [picture, format!("/a/waves/goal.png?v={digest}")].into_iter().cycle().take(20) {
+        let (app, asking) = (bench.app.clone(), Request::get(&address).body(Body::empty()).expect("a request"));
+        asked.spawn(async move { (address, crate::bench::send(&app, asking).await) });
+    }
+    assert_eq!(bench.get("/healthz").await.status, StatusCode::OK);
+    let mut seen = std::collections::BTreeMap::new();
+    for (address, reply) in asked.join_all().await {
+        assert_eq!((reply.status, reply.header("content-type")), (StatusCode::OK, "image/png"), "{address}");
+        assert!(reply.header("cache-control").contains("immutable"), "{reply:?}");
+        image::load_from_memory(&reply.body).expect("a PNG");
+        let first = seen.entry(address).or_insert_with(|| reply.body.clone());
+        assert_eq!(*first, reply.body);
+    }
+    assert_eq!(seen.len(), 2);
     bench.finish().await;
 }

@@ -8,6 +8,7 @@ use super::{preview, result, shown};
 use crate::grade::handed_out;
 use crate::service::State;
 use crate::service::counting;
+use crate::service::courses::at;
 use crate::service::download;
 use crate::service::errors::Problem;
 use crate::service::gallery;
@@ -25,6 +26,7 @@ use axum::response::{IntoResponse, Redirect, Response};
 use axum::routing::{get, post};
 use axum::{Json, Router};
 use base64::prelude::{BASE64_STANDARD, Engine};
+use reference::Assignment;
 use serde::{Deserialize, Serialize};
 
 /// What the page may be asked to show.
@@ -43,6 +45,7 @@ pub(super) fn router() -> Router<State> {
         .route("/read", post(read))
         .route("/starter", get(starter))
         .route("/goal.png", get(goal))
+        .route("/portrait.png", get(portrait))
 }
 
 /// The layer around a homework's pages: students find them once they are shown, whoever teaches it before.
@@ -54,6 +57,12 @@ pub(super) async fn seen(Shared(state): Shared<State>, request: Request, next: N
             return Err(not_shown());
         }
     }
+    Ok(next.run(request).await)
+}
+
+/// The layer around pages that load the right pictures of a homework.
+pub(super) async fn drawn(Shared(state): Shared<State>, request: Request, next: Next) -> Result<Response, Problem> {
+    gallery::drawn(&state).await?;
     Ok(next.run(request).await)
 }
 
@@ -155,10 +164,24 @@ pub(super) async fn starter(
     Ok((headers, file.starter.clone()).into_response())
 }
 
-/// `GET /a/{assignment}/goal.png`: what a right answer draws, small and moving. Its address has the digest of the homework.
-pub(super) async fn goal(Shared(state): Shared<State>) -> Result<Response, Problem> {
+/// The address of a picture of what a right answer draws: its address has the digest of the homework.
+pub(super) fn picture(homework: &Assignment, name: &str) -> String {
+    at(&format!("/a/{}/{name}.png?v={}", homework.id, &homework.digest[..16]))
+}
+
+/// `GET /a/{assignment}/goal.png`: what a right answer draws, small and moving.
+async fn goal(Shared(state): Shared<State>) -> Result<Response, Problem> {
+    Ok(kept(gallery::goal(&state).await?))
+}
+
+/// `GET /a/{assignment}/portrait.png`: the same at one pose.
+async fn portrait(Shared(state): Shared<State>) -> Result<Response, Problem> {
+    Ok(kept(gallery::portrait_of_right(&state).await?))
+}
+
+fn kept(png: Vec<u8>) -> Response {
     let headers = [(header::CONTENT_TYPE, "image/png"), (header::CACHE_CONTROL, "private, max-age=86400, immutable")];
-    Ok((headers, gallery::goal(&state).await?).into_response())
+    (headers, png).into_response()
 }
 
 /// A file as the editor of its slot takes it.

@@ -4,10 +4,9 @@
 use super::frame::{PageFrame, SignInLink};
 use super::standing::{Fact, StudentStanding};
 use super::teacher::Tab;
-use super::{internal, shown, student};
+use super::{hand_in, shown, student};
 use crate::language::Language;
 use crate::report::html::rich::MessagePiece;
-use crate::service::courses::at;
 use crate::service::errors::Problem;
 use crate::service::identity::{Teacher, TeacherPage, Visitor};
 use crate::service::{Service, State};
@@ -17,8 +16,6 @@ use axum::extract::{MatchedPath, Path, State as Shared};
 use axum::http::Uri;
 use axum::response::{IntoResponse, Redirect, Response};
 use axum::routing::{any, get};
-use base64::Engine;
-use base64::engine::general_purpose::STANDARD;
 
 /// The routes.
 pub(super) fn router() -> Router<Service> {
@@ -79,24 +76,23 @@ struct HomeworkCard {
     file: String,
     task: Vec<MessagePiece>,
     facts: Vec<Fact>,
-    /// What a right answer draws, a PNG in the address, and the address of the same as it moves.
+    /// The addresses of what a right answer draws, and of the same as it moves: the list does not wait for drawing it.
     still: String,
     moving: String,
 }
 
 impl HomeworkCard {
-    fn of(state: &State, frame: &PageFrame, href: String, facts: Vec<Fact>) -> Result<Self, Problem> {
+    fn of(state: &State, frame: &PageFrame, href: String, facts: Vec<Fact>) -> Self {
         let assignment = &state.assignment;
-        let picture = &state.right.portraits().map_err(internal)?.expected;
-        Ok(Self {
+        Self {
             href,
             title: student::title(assignment, frame.language),
             file: student::file_names(assignment),
             task: student::task(assignment, frame),
             facts,
-            still: format!("data:image/png;base64,{}", STANDARD.encode(picture)),
-            moving: at(&format!("/a/{}/goal.png?v={}", assignment.id, &assignment.digest[..16])),
-        })
+            still: hand_in::picture(assignment, "portrait"),
+            moving: hand_in::picture(assignment, "goal"),
+        }
     }
 }
 
@@ -108,7 +104,7 @@ async fn list(Shared(service): Shared<Service>, frame: PageFrame, visitor: Visit
             continue;
         }
         let facts = facts(&state, &frame, &visitor).await?;
-        homeworks.push(HomeworkCard::of(&state, &frame, state.page(), facts)?);
+        homeworks.push(HomeworkCard::of(&state, &frame, state.page(), facts));
     }
     let heading = frame.say("Homework", "課題の一覧");
     let who = visitor.identity.student().map(|student| student.number.clone());
@@ -163,7 +159,7 @@ async fn of_each(
             Language::Ja => format!("提出 {hand_ins} 件"),
         };
         let facts = vec![Fact::plain("", text)];
-        homeworks.push(HomeworkCard::of(&state, &frame, format!("{}/teacher{rest}", state.base()), facts)?);
+        homeworks.push(HomeworkCard::of(&state, &frame, format!("{}/teacher{rest}", state.base()), facts));
     }
     shown(ClassesPage { frame, place: Tab::Classes, csrf: teacher.csrf(service), heading, homeworks }.render())
 }

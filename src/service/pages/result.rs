@@ -10,7 +10,7 @@ use crate::report::text::number;
 use crate::service::courses::at;
 use crate::service::download;
 use crate::service::errors::Problem;
-use crate::service::gallery::PictureSet;
+use crate::service::gallery::{self, PictureSet};
 use crate::service::identity::{Teacher, Visitor};
 use crate::service::store::{StoredSubmission, Submission, SubmissionState as Progress, Via};
 use crate::service::{Service, State};
@@ -61,6 +61,7 @@ pub(super) async fn page(
     let frame = frame.of(&state);
     let judgement = Judgement::of(&state, &frame, &stored, teacher.as_ref(), &visitor).await?;
     let StoredSubmission { submission, report, cross_check } = stored;
+    gallery::drawn(&state).await?;
     let Some(mut report) = report else { return waiting(&state, frame, &submission).await };
     if teacher.is_some_and(|teacher| teacher.may_see(&submission.assignment)) {
         report.cross_check = cross_check;

@@ -1,7 +1,7 @@
 //! The class: everyone's picture and result, filters, charts.
 
 use super::super::frame::PageFrame;
-use super::super::{internal, shown, student};
+use super::super::{hand_in, shown, student};
 use super::charts::{self, HEIGHT, Histogram, SPARK, SubmissionChart, Trend, WIDTH};
 use super::downloads::{DownloadOffer, formats};
 use super::table::{StudentTable, TableFilter, titled};
@@ -15,8 +15,6 @@ use crate::service::identity::{Teacher, TeacherPage};
 use askama::Template;
 use axum::extract::{Query, State as Shared};
 use axum::response::Response;
-use base64::Engine;
-use base64::engine::general_purpose::STANDARD;
 
 #[derive(Template)]
 #[template(path = "service/pages/templates/class.html")]
@@ -107,7 +105,6 @@ pub(super) async fn view(
         let (from, to) = (frame.datetime(course.from).text, frame.datetime(course.to).text);
         (course, from, to)
     });
-    let expected = &state.right.portraits().map_err(internal)?.expected;
     let deleted = frame.say(
         "Deleted for good; the settings page lists what was deleted.",
         "削除しました。削除の記録は設定ページにあります。",
@@ -120,7 +117,7 @@ pub(super) async fn view(
             file: id.clone(),
             notice: (filter.done == "deleted").then_some(deleted),
             tallies: tallies(&frame, listed),
-            expected: format!("data:image/png;base64,{}", STANDARD.encode(expected)),
+            expected: hand_in::picture(&state.assignment, "portrait"),
             everyone: everyone.len(),
             handed_in: everyone.iter().filter(|person| !person.rows.is_empty()).count(),
             strangers: strangers.iter().map(|person| person.rows.len().max(1)).sum(),
