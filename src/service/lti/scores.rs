@@ -1,12 +1,12 @@
 //! Grades go home: the attempt of each student that counts, until the platform has it.
 //!
 //! What the platform has is compared with what stands here again and again, so that whatever changes a score is sent (an attempt, a
-//! regrading), and a platform that does not answer gets it later. What is sent is always what stands now; so no older score
-//! comes after a newer one.
+//! regrading), and a platform that does not answer gets it later. A score is claimed before it is sent, so that one process sends
+//! it, and what is sent is what stands after that; so no older score comes after a newer one.
 
 use super::super::Service;
 use super::super::clock::Millis;
-use super::super::store::{DueScore, Platform};
+use super::super::store::{DueScore, Platform, Result as StoreResult};
 use super::address;
 use super::platform::{Connections, Failure};
 use crate::language::Language;
@@ -15,7 +15,9 @@ use crate::report::labels::Labels;
 use crate::report::text::number;
 use reqwest::{Method, Url};
 use serde_json::{Value, json};
-use std::time::Duration;
+use std::collections::{BTreeMap, HashMap};
+use std::time::{Duration, Instant};
+use tokio::task::{JoinHandle, JoinSet};
 
 /// What this service may do to scores.
 pub(super) const SCOPE: &str = "https://purl.imsglobal.org/spec/lti-ags/scope/score";
@@ -30,11 +32,23 @@ const SECOND: Millis = 1_000;
 const FIRST_PAUSE: Millis = 5_000;
 const LONGEST_PAUSE: Millis = 3_600_000;
 
-/// Runs until the service is told to end.
+/// How long a score is kept from other processes while it is sent: longer than a token and an answer may take.
+const CLAIM: Millis = 60_000;
+
+/// A failure that takes as long as this is one of the platform, and not of the one score.
+const HANGS: Duration = Duration::from_secs(5);
+
+/// Runs until the service is told to end. A round passes over platforms with which an earlier one is not done, so that one that
+/// does not answer holds up no other.
 pub async fn run(service: Service) {
+    let mut under_way: HashMap<(String, String), JoinHandle<()>> = HashMap::new();
     loop {
+        under_way.retain(|_, sending| !sending.is_finished());
         for course in service.everywhere() {
-            send_due(&course).await;
+            for (platform, due) in due(&course).await {
+                let key = (course.root().to_owned(), platform);
+                under_way.entry(key).or_insert_with(|| tokio::spawn(send_all(course.clone(), due)));
+            }
         }
         tokio::select! {
             () = tokio::time::sleep(TICK) => {}
@@ -43,29 +57,54 @@ pub async fn run(service: Service) {
     }
 }
 
-/// Sends what is due now.
+/// Sends what is due now, to all platforms at once.
 pub async fn send_due(service: &Service) {
-    let due = match service.store.due_scores(service.clock.now()).await {
-        Ok(due) => due,
-        Err(error) => return tracing::error!(%error, "scores for learning platforms"),
-    };
+    let due = due(service).await.into_values();
+    let sending: JoinSet<()> = due.map(|due| send_all(service.clone(), due)).collect();
+    sending.join_all().await;
+}
+
+/// What is due, by platform.
+async fn due(service: &Service) -> BTreeMap<String, Vec<DueScore>> {
+    let mut all: BTreeMap<String, Vec<DueScore>> = BTreeMap::new();
+    match service.store.due_scores(service.clock.now()).await {
+        Ok(due) => due.into_iter().for_each(|due| all.entry(due.platform_id.clone()).or_default().push(due)),
+        Err(error) => tracing::error!(%error, "scores for learning platforms"),
+    }
+    all
+}
+
+/// Sends scores to a platform, one after another. What is left when it hangs is for the next round.
+async fn send_all(service: Service, due: Vec<DueScore>) {
     for due in due {
         if service.is_ending() {
             return;
         }
-        let at = service.clock.now().max(after(due.sent_at));
-        let noted = match send(service, &due, at).await {
-            Ok(()) => service.store.score_sent(&due, at).await,
-            Err(failure) => {
-                tracing::warn!(failure, "a learning platform did not take a score");
-                let pause = FIRST_PAUSE.saturating_mul(1 << due.tries.clamp(0, 16)).min(LONGEST_PAUSE);
-                service.store.score_failed(&due, &failure, service.clock.now() + pause).await
-            }
-        };
-        if let Err(error) = noted {
-            return tracing::error!(%error, "scores for learning platforms");
+        let start = Instant::now();
+        match claim_and_send(&service, &due).await {
+            Ok(true) => {}
+            Ok(false) if start.elapsed() < HANGS => {}
+            Ok(false) => return,
+            Err(error) => return tracing::error!(%error, "scores for learning platforms"),
         }
     }
+}
+
+/// Sends what is due by now of one that was due, unless another process does; whether it did not fail.
+async fn claim_and_send(service: &Service, due: &DueScore) -> StoreResult<bool> {
+    let now = service.clock.now();
+    let Some(due) = service.store.claim_score(due, now, now + CLAIM).await? else { return Ok(true) };
+    let at = now.max(after(due.sent_at));
+    let sent = send(service, &due, at).await;
+    match &sent {
+        Ok(()) => service.store.score_sent(&due, at).await?,
+        Err(failure) => {
+            tracing::warn!(failure, "a learning platform did not take a score");
+            let pause = FIRST_PAUSE.saturating_mul(1 << due.tries.clamp(0, 16)).min(LONGEST_PAUSE);
+            service.store.score_failed(&due, failure, service.clock.now() + pause).await?;
+        }
+    }
+    Ok(sent.is_ok())
 }
 
 /// The first time that is later than another one for a platform that counts whole seconds, as Moodle does.

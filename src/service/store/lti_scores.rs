@@ -30,6 +30,45 @@ pub struct DueScore {
 /// How many scores a platform has still to get after a failure, and what it said last.
 pub type Stuck = (String, i64, Option<String>);
 
+/// The statement that finds what is due: which scores it looks at, and which of those that are due it has. In turn come those of
+/// a platform that failed least.
+macro_rules! due {
+    ($which:literal, $rest:literal) => {
+        concat!(
+            "SELECT platform_id, link_id, subject, line_item, submission_id, score, feedback, sent_at, tries FROM \
+             (SELECT due.*, ROW_NUMBER() OVER (PARTITION BY platform_id ORDER BY tries, link_id, subject) AS turn FROM \
+             (SELECT best.*, graded_at || ' ' || \
+             (SELECT count(*) || ' ' || coalesce(max(c.at), 0) FROM comments c \
+             WHERE c.submission_id = best.submission_id) || ' ' || \
+             (SELECT count(*) || ' ' || coalesce(max(o.at), 0) FROM overrides o \
+             WHERE o.submission_id = best.submission_id) AS feedback FROM \
+             (SELECT k.platform_id, k.link_id, k.subject, l.line_item, s.id AS submission_id, \
+             r.score - n.penalty AS score, r.graded_at, \
+             k.sent_at, k.tries, k.submission_id AS sent_id, k.score AS sent_score, \
+             k.feedback AS sent_feedback, \
+             ROW_NUMBER() OVER (PARTITION BY k.platform_id, k.link_id, k.subject \
+             ORDER BY CASE WHEN a.counting = 'chosen' THEN coalesce(s.chosen_at, 0) ELSE 0 END DESC, \
+             CASE WHEN a.counting = 'best' THEN r.score - n.penalty ELSE 0 END DESC, \
+             CASE WHEN a.counting = 'best' THEN -s.received_at ELSE s.received_at END DESC, s.id) AS place \
+             FROM lti_scores k \
+             JOIN lti_links l ON l.platform_id = k.platform_id AND l.link_id = k.link_id \
+             JOIN lti_platforms f ON f.id = k.platform_id AND f.is_active = 1 \
+             JOIN lti_people p ON p.platform_id = k.platform_id AND p.subject = k.subject \
+             JOIN submissions s ON s.student_id = p.student_id AND s.assignment = l.assignment \
+             AND s.via <> 'editor' JOIN reports r ON r.submission_id = s.id \
+             JOIN assignments a ON a.id = s.assignment \
+             JOIN lateness n ON n.submission_id = s.id \
+             WHERE ",
+            $which,
+            " AND l.line_item IS NOT NULL) AS best WHERE place = 1) AS due \
+             WHERE (sent_id IS NULL OR sent_id <> submission_id OR sent_score <> score \
+             OR sent_feedback <> feedback) AND (sent_id IS NULL OR score >= sent_score \
+             OR EXISTS (SELECT 1 FROM submissions g WHERE g.id = sent_id))) AS turns ",
+            $rest
+        )
+    };
+}
+
 impl Store {
     /// Says that a link takes somebody's score.
     pub async fn expect_score(&self, platform_id: &str, link_id: &str, subject: &str) -> Result<()> {
@@ -41,37 +80,33 @@ impl Store {
         Ok(())
     }
 
-    /// Scores that are due at `now`, as many as are sent in one go. The attempt counts that [`counted`](crate::service::counting::counted)
-    /// names. Where the one that was sent is deleted, no lower one takes its place: what is too old to be kept costs nobody a point.
+    /// Scores that are due at `now`: of each platform as many as are sent in one go. The attempt counts that
+    /// [`counted`](crate::service::counting::counted) names. Where the one that was sent is deleted, no lower one takes its place:
+    /// what is too old to be kept costs nobody a point.
     pub async fn due_scores(&self, now: Millis) -> Result<Vec<DueScore>> {
-        const SQL: &str = "SELECT platform_id, link_id, subject, line_item, submission_id, score, feedback, sent_at, tries FROM \
-                           (SELECT best.*, graded_at || ' ' || \
-                           (SELECT count(*) || ' ' || coalesce(max(c.at), 0) FROM comments c \
-                           WHERE c.submission_id = best.submission_id) || ' ' || \
-                           (SELECT count(*) || ' ' || coalesce(max(o.at), 0) FROM overrides o \
-                           WHERE o.submission_id = best.submission_id) AS feedback FROM \
-                           (SELECT k.platform_id, k.link_id, k.subject, l.line_item, s.id AS submission_id, \
-                           r.score - n.penalty AS score, r.graded_at, \
-                           k.sent_at, k.tries, k.submission_id AS sent_id, k.score AS sent_score, \
-                           k.feedback AS sent_feedback, \
-                           ROW_NUMBER() OVER (PARTITION BY k.platform_id, k.link_id, k.subject \
-                           ORDER BY CASE WHEN a.counting = 'chosen' THEN coalesce(s.chosen_at, 0) ELSE 0 END DESC, \
-                           CASE WHEN a.counting = 'best' THEN r.score - n.penalty ELSE 0 END DESC, \
-                           CASE WHEN a.counting = 'best' THEN -s.received_at ELSE s.received_at END DESC, s.id) AS place \
-                           FROM lti_scores k \
-                           JOIN lti_links l ON l.platform_id = k.platform_id AND l.link_id = k.link_id \
-                           JOIN lti_platforms f ON f.id = k.platform_id AND f.is_active = 1 \
-                           JOIN lti_people p ON p.platform_id = k.platform_id AND p.subject = k.subject \
-                           JOIN submissions s ON s.student_id = p.student_id AND s.assignment = l.assignment \
-                           AND s.via <> 'editor' JOIN reports r ON r.submission_id = s.id \
-                           JOIN assignments a ON a.id = s.assignment \
-                           JOIN lateness n ON n.submission_id = s.id \
-                           WHERE k.next_at <= $1 AND l.line_item IS NOT NULL) AS best WHERE place = 1) AS due \
-                           WHERE (sent_id IS NULL OR sent_id <> submission_id OR sent_score <> score \
-                           OR sent_feedback <> feedback) AND (sent_id IS NULL OR score >= sent_score \
-                           OR EXISTS (SELECT 1 FROM submissions g WHERE g.id = sent_id)) \
-                           ORDER BY tries, platform_id, link_id, subject LIMIT 50";
+        const SQL: &str = due!("k.next_at <= $1", "WHERE turn <= 50 ORDER BY platform_id, turn");
         Ok(on!(&self.read, db => sqlx::query_as(SQL).bind(now).fetch_all(db).await?))
+    }
+
+    /// Claims a score that was due, and keeps it from other processes until `until`. None where another one has it, or has sent it;
+    /// else what is due of it now.
+    pub async fn claim_score(&self, due: &DueScore, now: Millis, until: Millis) -> Result<Option<DueScore>> {
+        const CLAIM: &str = "UPDATE lti_scores SET next_at = $5 WHERE platform_id = $1 AND link_id = $2 AND subject = $3 \
+                             AND next_at <= $4";
+        const SQL: &str = due!("k.platform_id = $1 AND k.link_id = $2 AND k.subject = $3", "");
+        const FREE: &str = "UPDATE lti_scores SET next_at = 0 WHERE platform_id = $1 AND link_id = $2 AND subject = $3 AND next_at = $4";
+        let (platform, link, subject) = (&due.platform_id, &due.link_id, &due.subject);
+        on!(&self.write, db => {
+            let claim = sqlx::query(CLAIM).bind(platform).bind(link).bind(subject).bind(now).bind(until);
+            if claim.execute(db).await?.rows_affected() == 0 {
+                return Ok(None);
+            }
+            let now_due = sqlx::query_as(SQL).bind(platform).bind(link).bind(subject).fetch_optional(db).await?;
+            if now_due.is_none() {
+                sqlx::query(FREE).bind(platform).bind(link).bind(subject).bind(until).execute(db).await?;
+            }
+            Ok(now_due)
+        })
     }
 
     /// Notes that a score has arrived, with the time that it was given.

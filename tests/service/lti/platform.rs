@@ -41,6 +41,10 @@ pub struct Seen {
     pub is_nameless: bool,
     /// Answers scores with this status.
     pub failing: Option<StatusCode>,
+    /// Does not answer scores at all.
+    pub is_hanging: bool,
+    /// How often scores were sent, those that it refused among them.
+    pub posts: usize,
     tokens: usize,
     /// Hints of those who come and of whom was not asked yet: as with Moodle, each is answered once.
     pub hints: HashMap<String, String>,
@@ -185,7 +189,12 @@ async fn scores(
     headers: HeaderMap,
     body: String,
 ) -> Response {
+    let is_hanging = platform.seen().is_hanging;
+    if is_hanging {
+        std::future::pending::<()>().await;
+    }
     let mut seen = platform.seen();
+    seen.posts += 1;
     if let Some(status) = seen.failing {
         return (status, "not now").into_response();
     }

@@ -1,0 +1,159 @@
+//! Scores on their way to platforms.
+
+use super::WRONG;
+use super::launch::{bench, cookie, encoded, hand_in, launch, registered};
+use super::platform::Platform;
+use crate::bench::{Bench, config};
+use crate::cluster::Database;
+use crate::roster::{form, get, request};
+use crate::{on_both, right, sample};
+use axum::body::Body;
+use axum::http::StatusCode;
+use ggrade::service::Config;
+use ggrade::service::clock::Clock;
+use ggrade::service::lti::scores::send_due;
+use ggrade::service::store::{AssignmentSettings, LateRules};
+use serde_json::{Value, json};
+use std::time::Duration;
+
+on_both!(scores_go_home_until_they_arrive, a_platform_that_hangs_holds_up_no_other, no_score_goes_home_twice,);
+
+/// The time, which stands: a platform refuses what is signed at another one.
+fn now() -> Clock {
+    Clock::fixed(i64::try_from(jsonwebtoken::get_current_timestamp()).expect("a time") * 1000)
+}
+
+async fn scores_go_home_until_they_arrive(database: Database) {
+    let clock = now();
+    let now = clock.now();
+    let (bench, platform) = bench(database, clock.clone()).await;
+    registered(&bench, &platform).await;
+    let student = cookie(&launch(&bench, &platform, "s1", "Learner").await, "ggrade");
+    send_due(&bench.state).await;
+    assert!(platform.seen().scores.is_empty(), "nothing is handed in");
+    assert_eq!(hand_in(&bench, &student, sample(WRONG)).await.status, StatusCode::CREATED);
+    // The platform is down for a while.
+    platform.seen().failing = Some(StatusCode::SERVICE_UNAVAILABLE);
+    send_due(&bench.state).await;
+    let page = get(&bench, "/teacher/platforms").await;
+    assert!(page.text().contains("1 scores have not arrived") && page.text().contains("503"), "{}", page.text());
+    platform.seen().failing = None;
+    send_due(&bench.state).await;
+    assert!(platform.seen().scores.is_empty(), "it is not asked again at once");
+    clock.advance(Duration::from_secs(6));
+    send_due(&bench.state).await;
+    let first = platform.seen().scores.last().cloned().expect("a score");
+    assert_eq!(
+        (&first["userId"], &first["scoreGiven"], &first["scoreMaximum"]),
+        (&json!("s1"), &json!(80.0), &json!(100.0))
+    );
+    assert_eq!((&first["activityProgress"], &first["gradingProgress"]), (&json!("Submitted"), &json!("FullyGraded")));
+    let comment = first["comment"].as_str().expect("a comment");
+    assert!(comment.contains("鏡面反射光 20 / 40") && comment.contains("http://ggrade.example/r/"), "{comment}");
+    assert!(!comment.contains('<') && !comment.contains('`'), "plain text: {comment}");
+    assert!(get(&bench, "/teacher/platforms").await.all(".panel .notice").is_empty());
+
+    // What is worse changes nothing; what is better comes with a later time, even within one tick of the clock.
+    hand_in(&bench, &student, sample("rejected/brace-missing-at-end.vert")).await;
+    send_due(&bench.state).await;
+    assert_eq!(platform.seen().scores.len(), 1);
+    let counts = hand_in(&bench, &student, right()).await.id();
+    send_due(&bench.state).await;
+    send_due(&bench.state).await;
+    let scores = platform.seen().scores.clone();
+    assert_eq!((scores.len(), &scores[1]["scoreGiven"]), (2, &json!(100.0)));
+    let second = |score: &Value| score["timestamp"].as_str().map(|at| at[..19].to_owned());
+    assert!(second(&scores[1]) > second(&scores[0]), "Moodle counts whole seconds: {scores:?}");
+    // So does what people say of it, and that they take it back, with equal points.
+    let comments = format!("/api/v1/submissions/{counts}/comments");
+    let wish = json!({ "line": 3, "text": "Why so?" }).to_string();
+    let said = bench.send(request("POST", &comments, "application/json", wish)).await;
+    for (is_said, address) in [(true, String::new()), (false, format!("{comments}/{}", said.id()))] {
+        if !is_said {
+            let removed = bench.send(request("DELETE", &address, "", Body::empty())).await;
+            assert_eq!(removed.status, StatusCode::NO_CONTENT);
+        }
+        send_due(&bench.state).await;
+        send_due(&bench.state).await;
+        let score = platform.seen().scores.pop().expect("a score");
+        assert_eq!(score["comment"].as_str().expect("a comment").contains("Why so?"), is_said, "{score}");
+        assert_eq!(platform.seen().scores.len(), 2, "each is sent once");
+    }
+    // What lateness takes off goes home as well, and is said.
+    let rules = bench.state.store.assignment("ggsample06").await.expect("rules");
+    let late = LateRules { until: Some(now + 86_400_000), percent: 15.0, ..LateRules::default() };
+    let strict = AssignmentSettings { closes_at: Some(now - 1000), late, ..rules.clone() };
+    bench.state.store.set_assignment(&strict).await.expect("set");
+    send_due(&bench.state).await;
+    let late = platform.seen().scores.pop().expect("a score");
+    assert_eq!(late["scoreGiven"], json!(85.0));
+    assert!(late["comment"].as_str().expect("a comment").contains("−15\n成績に入る得点: 85 / 100"), "{late}");
+    bench.state.store.set_assignment(&rules).await.expect("set");
+    send_due(&bench.state).await;
+    assert_eq!(platform.seen().scores.pop().expect("a score")["scoreGiven"], json!(100.0));
+    // What is deleted is not replaced by something lower: the gradebook keeps what it has.
+    let best = bench.state.store.class("ggsample06", None).await.expect("a class");
+    let best = best.iter().find(|row| row.row.score == Some(100.0)).expect("the best").row.submission.id.clone();
+    let deleted = request("DELETE", &format!("/api/v1/submissions/{best}"), "", Body::empty());
+    assert_eq!(bench.send(deleted).await.status, StatusCode::OK);
+    send_due(&bench.state).await;
+    assert_eq!(platform.seen().scores.len(), 2);
+    // A platform that is switched off gets nothing, and launches from it are refused.
+    let id = bench.state.store.platforms().await.expect("platforms")[0].id.clone();
+    assert_eq!(
+        form(&bench, "/teacher/platforms", &format!("wish=off&platform={id}")).await.status,
+        StatusCode::SEE_OTHER
+    );
+    let refused = bench.get(&format!("/lti/login?iss={}&login_hint=1", encoded(&platform.issuer))).await;
+    assert_eq!(refused.problem(), "lti");
+    bench.finish().await;
+}
+
+async fn a_platform_that_hangs_holds_up_no_other(database: Database) {
+    let (bench, hanging) = bench(database, now()).await;
+    let others = [Platform::start().await, Platform::start().await, Platform::start().await];
+    for (index, platform) in std::iter::once(&hanging).chain(&others).enumerate() {
+        registered(&bench, platform).await;
+        let student = cookie(&launch(&bench, platform, &format!("s{index}"), "Learner").await, "ggrade");
+        assert_eq!(hand_in(&bench, &student, right()).await.status, StatusCode::CREATED);
+    }
+    hanging.seen().is_hanging = true;
+    let service = bench.state.service().clone();
+    let sending = tokio::spawn(async move { send_due(&service).await });
+    let arrived = || others.iter().all(|platform| platform.seen().scores.len() == 1);
+    for _ in 0..300 {
+        if arrived() {
+            break;
+        }
+        tokio::time::sleep(Duration::from_millis(20)).await;
+    }
+    assert!(arrived() && !sending.is_finished(), "the others wait for the one that hangs");
+    sending.abort();
+    bench.finish().await;
+}
+
+async fn no_score_goes_home_twice(database: Database) {
+    let is_shared = database.location.starts_with("postgres");
+    let again = database.again();
+    let clock = now();
+    let (bench, platform) = bench(database, clock.clone()).await;
+    registered(&bench, &platform).await;
+    for who in 1..=6 {
+        let student = cookie(&launch(&bench, &platform, &format!("s{who}"), "Learner").await, "ggrade");
+        assert_eq!(hand_in(&bench, &student, right()).await.status, StatusCode::CREATED);
+    }
+    // An SQLite file has one process; its rounds may come at once all the same.
+    let config = Config { public_url: Some("http://ggrade.example".into()), ..config() };
+    let other = match is_shared {
+        true => Some(Bench::with(again, config, crate::pool(), clock).await),
+        false => None,
+    };
+    let beside = other.as_ref().map_or(&bench.state, |other| &other.state);
+    tokio::join!(send_due(&bench.state), send_due(beside));
+    let (scores, posts) = (platform.seen().scores.len(), platform.seen().posts);
+    assert_eq!((scores, posts), (6, 6));
+    if let Some(other) = other {
+        other.finish().await;
+    }
+    bench.finish().await;
+}
