@@ -18,6 +18,10 @@ pub async fn delete(service: &Service, target: &DeletionTarget) -> Result<Counts
     for sha256 in &files {
         service.gallery.forget(sha256).await;
     }
+    // The rows are gone whatever becomes of this.
+    if let Err(error) = service.store.empty_log().await {
+        tracing::error!(%error, "the log of the database could not be emptied");
+    }
     let Counts { submissions, drafts, entries, browsers } = counts;
     tracing::info!(what = target.word(), submissions, drafts, entries, browsers, "a teacher deleted");
     Ok(counts)

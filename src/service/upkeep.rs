@@ -47,4 +47,7 @@ pub async fn remove(service: &Service) {
         Ok(_) => {}
         Err(error) => tracing::error!(%error, "old submissions could not be removed"),
     }
+    if let Err(error) = service.store.empty_log().await {
+        tracing::error!(%error, "the log of the database could not be emptied");
+    }
 }

@@ -91,6 +91,36 @@ async fn a_student_goes_with_everything_of_theirs(database: Database) {
     bench.finish().await;
 }
 
+#[tokio::test(flavor = "multi_thread")]
+async fn nothing_of_who_is_deleted_stays_in_the_file() {
+    let database = Database::sqlite();
+    let location = database.location.clone();
+    let bench = Bench::new(database).await;
+    let roster = "number,name,email\nB0071234,Kuroneko Yamato,kuroneko@campus.example\nB0079999,Stays Here,\n";
+    file(&bench, "/teacher/roster", "roster", "r.csv", roster.as_bytes()).await;
+    let mut theirs = right_and_new();
+    theirs.extend(b"// a text of their own: ultramarine\n");
+    let id = hand_in(&bench, "b0071234", theirs).await;
+    let reason = "line=specular&points=3&reason=because+of+vermilion";
+    assert_eq!(form(&bench, &format!("/r/{id}/override"), reason).await.status, StatusCode::SEE_OTHER);
+    let written = || -> Vec<u8> {
+        let files = ["", "-wal"].map(|end| std::fs::read(format!("{location}{end}")).unwrap_or_default());
+        files.concat()
+    };
+    let has = |text: &str| written().windows(text.len()).any(|window| window == text.as_bytes());
+    let of_them = ["B0071234", "Kuroneko", "kuroneko@campus", "vermilion"];
+    for text in of_them {
+        assert!(has(text), "{text} is not in the file before");
+    }
+    let deleted = request("DELETE", "/api/v1/students/B0071234", "", Body::empty());
+    assert_eq!(bench.send(deleted).await.status, StatusCode::OK);
+    for text in of_them {
+        assert!(!has(text), "{text} is in the file");
+    }
+    assert!(has("B0079999"));
+    bench.finish().await;
+}
+
 async fn an_archive_and_a_submission_go_alone(database: Database) {
     let bench = Bench::new(database).await;
     let kept = hand_in(&bench, "s1", sample(WRONG)).await;

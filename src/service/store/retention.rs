@@ -1,7 +1,7 @@
 //! Removing what is old.
 
 use super::cross_checks::differs;
-use super::{Result, Store, on};
+use super::{DatabasePool, Result, Store, on};
 use crate::service::clock::Millis;
 
 /// What was removed.
@@ -22,6 +22,19 @@ pub(super) const PORTRAITS: &str = "DELETE FROM portraits WHERE NOT EXISTS \
                                     (SELECT 1 FROM submissions s WHERE s.digest = portraits.sha256)";
 
 impl Store {
+    /// Empties the log of changes beside an SQLite file, which has what was deleted as it stood before. PostgreSQL clears its
+    /// files by itself.
+    pub async fn empty_log(&self) -> Result<()> {
+        if let DatabasePool::Sqlite(db) = &self.write {
+            let (is_busy, ..): (i64, i64, i64) =
+                sqlx::query_as("PRAGMA wal_checkpoint(TRUNCATE)").fetch_one(db).await?;
+            if is_busy != 0 {
+                tracing::warn!("the log of the database could not be emptied now; it is tried again within the hour");
+            }
+        }
+        Ok(())
+    }
+
     /// Removes submissions that came before `before`, drafts that came before `drafts_before`, and what only they had.
     /// Of a submission on which driver and interpreter disagree the file and the report stay, and nothing of whose it was.
     pub async fn remove_old(&self, before: Option<Millis>, drafts_before: Millis) -> Result<RemovedCounts> {
