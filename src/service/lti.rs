@@ -13,6 +13,7 @@ pub mod known;
 mod launch;
 mod login;
 pub mod memberships;
+mod next_page;
 mod people;
 mod platform;
 pub mod registration;

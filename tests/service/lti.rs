@@ -135,6 +135,23 @@ async fn the_roster_is_the_platforms(database: Database) {
         let lines: Vec<(&str, &str)> = roster.iter().map(|who| (who.number.as_str(), who.name.as_str())).collect();
         assert_eq!(lines, [("S1", "Name of s1"), ("S2", "Name of s2")]);
     }
+    // However its pages are named, the list is read to its end, or not at all.
+    let fetch = async |next: &str| {
+        platform.seen().next_page = Some(next.to_owned());
+        form(&bench, "/teacher/platforms", &format!("wish=roster&platform={id}&link=3")).await.text()
+    };
+    for next in [
+        "</memberships?page=2,50&x=a;b>; rel=\"next last\"",
+        "</memberships?page=1>; rel=prev, <?page=2>; title=\"a, b\"; REL=\"next\"",
+    ] {
+        let page = fetch(next).await;
+        assert!(page.contains("2 students are on the roster now."), "{next}: {page}");
+    }
+    for (next, why) in [("<http://127.0.0.1:1/>; rel=next", "another host"), ("<?x>; rel=next", "more than 100 pages")]
+    {
+        let page = fetch(next).await;
+        assert!(page.contains(why) && page.contains("The roster was not changed."), "{next}: {page}");
+    }
     // Who comes later is the one of the roster, and is let in without a code.
     let student = cookie(&launch(&bench, &platform, "s2", "Learner").await, "ggrade");
     assert_eq!(hand_in(&bench, &student, right()).await.status, StatusCode::CREATED);

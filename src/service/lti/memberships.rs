@@ -6,11 +6,11 @@ use super::super::identity::normal_number;
 use super::super::roster;
 use super::super::store::{Link, Platform, RosterLine, StudentRecord};
 use super::claims::id;
+use super::next_page::next_page;
 use super::people::{Described, student, teaches_no_more};
 use super::platform::{Connections, Failure, parsed};
 use super::{refused, roles};
 use reqwest::Method;
-use reqwest::header::LINK;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 
@@ -115,21 +115,16 @@ fn line(student: StudentRecord) -> RosterLine {
 /// Every page of the list.
 async fn fetched(service: &Service, platform: &Platform, first: String) -> Result<Vec<PlatformMember>, Failure> {
     let mut members = Vec::new();
-    let mut next = Some(first);
+    let mut address = first;
     for _ in 0..MOST_PAGES {
-        let Some(address) = next else { break };
         let response = Connections::call(service, platform, SCOPE, (Method::GET, &address, KIND), None).await?;
-        let links = response.headers().get_all(LINK).iter().filter_map(|value| value.to_str().ok());
-        next = links.flat_map(|value| value.split(',')).find_map(following);
+        let next = next_page(&address, response.headers())?;
         let container: Container = parsed(&address, response).await?;
         members.extend(container.members);
+        match next {
+            Some(next) => address = next,
+            None => return Ok(members),
+        }
     }
-    Ok(members)
-}
-
-/// The address of a `Link: <…>; rel="next"`.
-fn following(link: &str) -> Option<String> {
-    let (address, rest) = link.trim().strip_prefix('<')?.split_once('>')?;
-    let is_next = rest.split(';').any(|part| matches!(part.trim(), "rel=\"next\"" | "rel=next"));
-    is_next.then(|| address.to_owned())
+    Err(format!("{address}: the list has more than {MOST_PAGES} pages"))
 }

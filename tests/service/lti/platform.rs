@@ -41,6 +41,8 @@ pub struct Seen {
     pub is_nameless: bool,
     /// Answers scores with this status.
     pub failing: Option<StatusCode>,
+    /// How the second page of its people is named, in place of its whole address.
+    pub next_page: Option<String>,
     /// Does not answer scores at all.
     pub is_hanging: bool,
     /// How often scores were sent, those that it refused among them.
@@ -283,6 +285,8 @@ async fn memberships(
         return ([kind], members.to_string()).into_response();
     }
     let members = json!({ "members": [member("s1", "Learner", "Active"), member("teacher", "Instructor", "Active")] });
-    let next = (header::LINK, format!("<{}/memberships?page=2>; rel=\"next\"", platform.issuer));
+    let named = platform.seen().next_page.clone();
+    let named = named.unwrap_or_else(|| format!("<{}/memberships?page=2>; rel=\"next\"", platform.issuer));
+    let next = (header::LINK, named);
     ([kind, next], members.to_string()).into_response()
 }
