@@ -24,6 +24,7 @@ on_both!(
     whoever_launches_is_who_the_platform_says,
     the_roster_is_the_platforms,
     no_address_is_told_by_which_nobody_reaches_the_service,
+    a_platform_shows_homeworks_wherever_it_has_its_pages,
 );
 
 const WRONG: &str = "wrong/specular-half-unnormalized--average.vert";
@@ -204,6 +205,40 @@ async fn inside_a_platforms_page_cookies_are_its_own_and_nobody_else_shows_pages
     let policy = bench.send(framed).await.header("content-security-policy").to_owned();
     assert!(policy.contains(&format!("frame-ancestors 'self' {}", platform.issuer)), "{policy}");
     assert!(bench.get("/").await.header("content-security-policy").contains("frame-ancestors 'none'"));
+    bench.finish().await;
+}
+
+async fn a_platform_shows_homeworks_wherever_it_has_its_pages(database: Database) {
+    let (bench, platform) = bench(database, Clock::system()).await;
+    registered(&bench, &platform).await;
+    let shown_by = async || {
+        let framed = Request::get("/a/ggsample06").header("sec-fetch-dest", "iframe").body(Body::empty());
+        let policy = bench.send(framed.expect("a request")).await.header("content-security-policy").to_owned();
+        let origins = policy.split_once("frame-ancestors 'self' ").expect("who may show it").1;
+        origins.split([' ', ';']).map(str::to_owned).collect::<Vec<_>>()
+    };
+    assert_eq!(shown_by().await, std::slice::from_ref(&platform.issuer));
+    // One that signs people in elsewhere than where its pages are, as its links say.
+    let begun = begin(&bench, &platform, false).await;
+    let mut claims = platform.claims(&begun.query["nonce"], "s1", "Learner");
+    claims["https://purl.imsglobal.org/spec/lti-nrps/claim/namesroleservice"]["context_memberships_url"] =
+        json!("https://school.lms.example/api/members");
+    let opened = answer(&bench, &begun, &platform.sign(&claims)).await;
+    assert_eq!(opened.status, StatusCode::SEE_OTHER, "{}", opened.text());
+    let at = |host: &str| encoded(&format!("https://{host}.example/x"));
+    let wish = format!(
+        "wish=add&issuer={}&client_id=c&auth_url={1}&token_url={1}&keys_url={1}",
+        encoded("https://lms-of-another.example"),
+        at("sso-of-another")
+    );
+    assert_eq!(form(&bench, "/teacher/platforms", &wish).await.status, StatusCode::SEE_OTHER);
+    let origins = shown_by().await;
+    let (own, pages) = (platform.issuer.as_str(), "https://school.lms.example");
+    assert_eq!(origins, [own, "https://lms-of-another.example", pages, "https://sso-of-another.example"]);
+    let platforms = bench.state.store.platforms().await.expect("platforms");
+    let first = &platforms.iter().find(|known| known.issuer == platform.issuer).expect("the first").id;
+    form(&bench, "/teacher/platforms", &format!("wish=off&platform={first}")).await;
+    assert_eq!(shown_by().await, ["https://lms-of-another.example", "https://sso-of-another.example"]);
     bench.finish().await;
 }
 

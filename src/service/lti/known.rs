@@ -4,6 +4,8 @@ use super::super::Service;
 use super::super::identity::Teacher;
 use super::super::store::{Deployment, Platform, PlatformCourse, Result as StoreResult, StaffRole, Stuck};
 use super::contexts::is_elsewheres;
+use super::platform::checked;
+use std::collections::BTreeSet;
 
 /// A platform.
 #[derive(Clone, Debug)]
@@ -39,6 +41,24 @@ pub async fn platforms(service: &Service, teacher: &Teacher) -> StoreResult<Vec<
         });
     }
     Ok(known)
+}
+
+/// Where the pages are that may show homeworks in a frame: those of platforms that are switched on. A platform may have its pages
+/// elsewhere than where it signs people in (Canvas: school.instructure.com and sso.canvaslms.com), so what its links say counts as well.
+pub async fn origins(service: &Service) -> StoreResult<BTreeSet<String>> {
+    let (platforms, links) = (service.store.platforms().await?, service.store.links().await?);
+    let mut addresses = Vec::new();
+    for platform in platforms.iter().filter(|platform| platform.is_active == 1) {
+        addresses.extend([&platform.issuer, &platform.auth_url]);
+        let own = links.iter().filter(|link| link.platform_id == platform.id);
+        addresses.extend(own.flat_map(|link| [&link.line_item, &link.memberships]).flatten());
+    }
+    Ok(addresses.into_iter().filter_map(|address| origin(address)).collect())
+}
+
+/// The origin of an address that a platform may have.
+pub fn origin(address: &str) -> Option<String> {
+    checked(address).ok().map(|url| url.origin().ascii_serialization())
 }
 
 /// The scores that platforms did not take, of each course by itself. A platform is registered once and serves many courses; whoever

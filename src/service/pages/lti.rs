@@ -6,6 +6,7 @@ use crate::service::Service;
 use crate::service::courses::at;
 use crate::service::errors::Problem;
 use crate::service::lti::deep_linking::HomeworkChoice;
+use crate::service::lti::known;
 use crate::service::lti::registration::{self, RegistrationQuery};
 use askama::Template;
 use axum::extract::{Path, Query, Request, State as Shared};
@@ -75,12 +76,10 @@ pub(super) async fn embeddable(Shared(service): Shared<Service>, request: Reques
     if !is_framed || response.headers().contains_key(header::CONTENT_SECURITY_POLICY) {
         return response;
     }
-    let platforms = service.store.platforms().await.unwrap_or_default();
-    let active = platforms.iter().filter(|platform| platform.is_active == 1);
-    let origin = |address: &str| Some(reqwest::Url::parse(address).ok()?.origin().ascii_serialization());
-    let known = active.filter_map(|platform| origin(&platform.auth_url));
-    let origins: Vec<String> = known.chain(registering.and_then(|address| origin(&address))).collect();
+    let mut origins = known::origins(&service).await.unwrap_or_default();
+    origins.extend(registering.and_then(|address| known::origin(&address)));
     if !origins.is_empty() {
+        let origins: Vec<String> = origins.into_iter().collect();
         let policy = format!("frame-ancestors 'self' {}", origins.join(" "));
         let policy = crate::service::CSP.replace("frame-ancestors 'none'", &policy);
         if let Ok(policy) = HeaderValue::from_str(&policy) {
