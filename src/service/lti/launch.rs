@@ -152,6 +152,8 @@ async fn open(
     };
     let student = student(service, platform, &who).await?;
     service.store.expect_score(&platform.id, &link, &who.subject).await?;
+    let context = claims.context.as_ref().map(|context| context.id.as_str()).unwrap_or_default();
+    service.store.note_platform_member(&platform.id, context, &who.subject).await?;
     // Another homework in another tab goes on in the same browser; whoever else sat here is somebody else.
     let here = Visitor::of(service, headers).await?;
     let is_theirs = here.identity.student_id() == Some(student.id.as_str());

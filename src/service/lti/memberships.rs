@@ -91,6 +91,7 @@ pub async fn import(service: &Service, platform: &Platform, link: &Link) -> Resu
     for who in &students {
         // Whoever has a number is matched by it; the others get one that is made of the platform's id.
         let student = student(service, platform, who).await?;
+        service.store.note_platform_member(&platform.id, &link.context, &who.subject).await?;
         let is_own = who.numbers.iter().filter_map(|number| normal_number(number)).any(|n| n == student.number);
         // A platform may share no names: it takes none away by that.
         let is_named = !who.name.trim().is_empty() && (is_own || student.name.is_empty());

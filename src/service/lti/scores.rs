@@ -67,6 +67,9 @@ pub async fn send_due(service: &Service) {
 /// What is due, by platform.
 async fn due(service: &Service) -> BTreeMap<String, Vec<DueScore>> {
     let mut all: BTreeMap<String, Vec<DueScore>> = BTreeMap::new();
+    if let Err(error) = service.store.expect_scores().await {
+        tracing::error!(%error, "scores for learning platforms");
+    }
     match service.store.due_scores(service.clock.now()).await {
         Ok(due) => due.into_iter().for_each(|due| all.entry(due.platform_id.clone()).or_default().push(due)),
         Err(error) => tracing::error!(%error, "scores for learning platforms"),

@@ -47,10 +47,13 @@ impl Store {
         Ok(())
     }
 
-    /// Forgets the links of a platform's course, so that nothing is sent there any more.
+    /// Forgets the links of a platform's course and who is in it, so that nothing is sent there any more.
     pub async fn forget_links(&self, platform_id: &str, context: &str) -> Result<()> {
-        const SQL: &str = "DELETE FROM lti_links WHERE platform_id = $1 AND context = $2";
-        on!(&self.write, db => { sqlx::query(SQL).bind(platform_id).bind(context).execute(db).await?; });
+        const LINKS: &str = "DELETE FROM lti_links WHERE platform_id = $1 AND context = $2";
+        const MEMBERS: &str = "DELETE FROM lti_members WHERE platform_id = $1 AND context = $2";
+        for sql in [LINKS, MEMBERS] {
+            on!(&self.write, db => { sqlx::query(sql).bind(platform_id).bind(context).execute(db).await?; });
+        }
         Ok(())
     }
 }

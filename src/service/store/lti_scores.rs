@@ -80,6 +80,35 @@ impl Store {
         Ok(())
     }
 
+    /// Says that somebody is a student in a platform's course; without an id of the course nothing is known of who is in it.
+    pub async fn note_platform_member(&self, platform_id: &str, context: &str, subject: &str) -> Result<()> {
+        const SQL: &str = "INSERT INTO lti_members (platform_id, context, subject) VALUES ($1, $2, $3) \
+                           ON CONFLICT (platform_id, context, subject) DO NOTHING";
+        if !context.is_empty() {
+            on!(&self.write, db => {
+                sqlx::query(SQL).bind(platform_id).bind(context).bind(subject).execute(db).await?;
+            });
+        }
+        Ok(())
+    }
+
+    /// Expects the scores of homeworks that students of a platform's course handed in without opening the link of theirs. SQLite
+    /// looks through the few submissions of each student, and not of each homework, since no index has what is compared.
+    pub async fn expect_scores(&self) -> Result<()> {
+        const SQL: &str = "SELECT m.platform_id, l.link_id, m.subject FROM lti_members m \
+                           JOIN lti_links l ON l.platform_id = m.platform_id AND l.context = m.context \
+                           JOIN lti_people p ON p.platform_id = m.platform_id AND p.subject = m.subject \
+                           WHERE l.line_item IS NOT NULL AND NOT EXISTS (SELECT 1 FROM lti_scores k \
+                           WHERE k.platform_id = m.platform_id AND k.link_id = l.link_id AND k.subject = m.subject) \
+                           AND EXISTS (SELECT 1 FROM submissions s WHERE s.student_id = p.student_id \
+                           AND s.assignment || '' = l.assignment AND s.via <> 'editor') LIMIT 1000";
+        let missing: Vec<(String, String, String)> = on!(&self.read, db => sqlx::query_as(SQL).fetch_all(db).await?);
+        for (platform, link, subject) in missing {
+            self.expect_score(&platform, &link, &subject).await?;
+        }
+        Ok(())
+    }
+
     /// Scores that are due at `now`: of each platform as many as are sent in one go. The attempt counts that
     /// [`counted`](crate::service::counting::counted) names. Where the one that was sent is deleted, no lower one takes its place:
     /// what is too old to be kept costs nobody a point.

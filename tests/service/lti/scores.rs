@@ -1,14 +1,15 @@
 //! Scores on their way to platforms.
 
 use super::WRONG;
-use super::launch::{bench, cookie, encoded, hand_in, launch, registered};
-use super::platform::Platform;
+use super::launch::{answer, begin, bench, cookie, encoded, hand_in, launch, registered};
+use super::platform::{CLIENT, DEPLOYMENT, Platform};
 use crate::bench::{Bench, config};
 use crate::cluster::Database;
 use crate::roster::{form, get, request};
+use crate::several_homeworks::{waves, waves_and_new};
 use crate::{on_both, right, sample};
 use axum::body::Body;
-use axum::http::StatusCode;
+use axum::http::{Request, StatusCode, header};
 use ggrade::service::Config;
 use ggrade::service::clock::Clock;
 use ggrade::service::lti::scores::send_due;
@@ -16,7 +17,13 @@ use ggrade::service::store::{AssignmentSettings, LateRules};
 use serde_json::{Value, json};
 use std::time::Duration;
 
-on_both!(scores_go_home_until_they_arrive, a_platform_that_hangs_holds_up_no_other, no_score_goes_home_twice,);
+on_both!(
+    scores_go_home_until_they_arrive,
+    a_platform_that_hangs_holds_up_no_other,
+    no_score_goes_home_twice,
+    what_is_handed_in_without_its_link_goes_home_as_well,
+    a_platform_names_to_whom_requests_for_tokens_are_addressed,
+);
 
 /// The time, which stands: a platform refuses what is signed at another one.
 fn now() -> Clock {
@@ -150,10 +157,83 @@ async fn no_score_goes_home_twice(database: Database) {
     };
     let beside = other.as_ref().map_or(&bench.state, |other| &other.state);
     tokio::join!(send_due(&bench.state), send_due(beside));
-    let (scores, posts) = (platform.seen().scores.len(), platform.seen().posts);
-    assert_eq!((scores, posts), (6, 6));
+    {
+        let seen = platform.seen();
+        assert_eq!((seen.scores.len(), seen.posts), (6, 6));
+    }
     if let Some(other) = other {
         other.finish().await;
+    }
+    bench.finish().await;
+}
+
+async fn what_is_handed_in_without_its_link_goes_home_as_well(database: Database) {
+    let config = Config { public_url: Some("http://ggrade.example".into()), ..config() };
+    let homeworks = vec![reference::assignment("ggsample06").expect("built in").clone(), waves()];
+    let bench = Bench::serving_several(homeworks, database, config, crate::pool(), now()).await;
+    let platform = Platform::start().await;
+    registered(&bench, &platform).await;
+    let opened = async |who: &str, context: &str, link: &str, homework: &str| {
+        let begun = begin(&bench, &platform, false).await;
+        let mut claims = platform.claims(&begun.query["nonce"], who, "Learner");
+        claims["https://purl.imsglobal.org/spec/lti/claim/context"] = json!({ "id": context });
+        claims["https://purl.imsglobal.org/spec/lti/claim/resource_link"] = json!({ "id": link });
+        claims["https://purl.imsglobal.org/spec/lti/claim/custom"] = json!({ "assignment": homework });
+        answer(&bench, &begun, &platform.sign(&claims)).await
+    };
+    let of_waves = async |browser: &str| {
+        let request = Request::post("/api/v1/submissions?assignment=waves").header(header::COOKIE, browser);
+        let request = request.header(header::CONTENT_TYPE, "text/plain").header("sec-fetch-site", "same-origin");
+        let reply = bench.send(request.body(Body::from(waves_and_new())).expect("a request")).await;
+        assert_eq!(reply.status, StatusCode::CREATED, "{reply:?}");
+    };
+    let one = cookie(&opened("s1", "course-2", "3", "ggsample06").await, "ggrade");
+    of_waves(&one).await;
+    send_due(&bench.state).await;
+    assert!(platform.seen().scores.is_empty(), "nobody has made a link for it");
+    // Somebody opens the link of the other homework; the first one never does.
+    assert_eq!(opened("s2", "course-2", "4", "waves").await.status, StatusCode::SEE_OTHER);
+    // Who is in another course of the platform is not in that one.
+    assert_eq!(opened("s3", "course-9", "9", "ggsample06").await.status, StatusCode::FORBIDDEN);
+    let id = bench.state.store.platforms().await.expect("platforms")[0].id.clone();
+    let connected = form(&bench, "/teacher/platforms", &format!("wish=connect&platform={id}&context=course-9")).await;
+    assert_eq!(connected.status, StatusCode::SEE_OTHER);
+    of_waves(&cookie(&opened("s3", "course-9", "9", "ggsample06").await, "ggrade")).await;
+    for _ in 0..2 {
+        send_due(&bench.state).await;
+        let scores = platform.seen().scores.clone();
+        let told: Vec<_> = scores.iter().map(|score| (&score["userId"], &score["scoreGiven"])).collect();
+        assert_eq!(told, [(&json!("s1"), &json!(100.0))]);
+    }
+    bench.finish().await;
+}
+
+async fn a_platform_names_to_whom_requests_for_tokens_are_addressed(database: Database) {
+    let (bench, platform) = bench(database, now()).await;
+    let at = |path: &str| format!("{}/{path}", platform.issuer);
+    let mut wish = json!({
+        "issuer": platform.issuer, "client_id": CLIENT, "deployment": DEPLOYMENT, "auth_url": at("auth"),
+        "token_url": at("token"), "keys_url": at("jwks"), "token_audience": "https://api.brightspace.example/auth/token",
+    });
+    let added = bench.send(request("POST", "/api/v1/platforms", "application/json", wish.to_string())).await;
+    assert_eq!(added.status, StatusCode::CREATED, "{added:?}");
+    platform.seen().tools_keys = Some(serde_json::from_slice(&bench.get("/lti/jwks.json").await.body).expect("keys"));
+    platform.seen().audience = Some("https://api.brightspace.example/auth/token".to_owned());
+    let student = cookie(&launch(&bench, &platform, "s1", "Learner").await, "ggrade");
+    assert_eq!(hand_in(&bench, &student, right()).await.status, StatusCode::CREATED);
+    send_due(&bench.state).await;
+    let page = get(&bench, "/teacher/platforms").await;
+    assert_eq!(platform.seen().scores.len(), 1, "{}", page.text());
+    // The form has a field for it; an empty one stands for the address of tokens.
+    for (typed, kept) in [("urn:of-the-form", Some("urn:of-the-form")), (" ", None)] {
+        wish["token_audience"] = json!(typed);
+        let fields = wish.as_object().expect("fields").iter();
+        let fields = fields.map(|(name, value)| format!("{name}={}", encoded(value.as_str().expect("text"))));
+        let fields = fields.collect::<Vec<_>>().join("&");
+        let added = form(&bench, "/teacher/platforms", &format!("wish=add&{fields}")).await;
+        assert_eq!(added.status, StatusCode::SEE_OTHER, "{}", added.text());
+        let platforms = bench.state.store.platforms().await.expect("platforms");
+        assert_eq!((platforms.len(), platforms[0].token_audience.as_deref()), (1, kept));
     }
     bench.finish().await;
 }
