@@ -86,6 +86,9 @@ pub(super) struct PlatformWish {
     token_url: String,
     /// Where its public keys are.
     keys_url: String,
+    /// Who a request for a token is addressed to (`aud`), where that is not the address itself, as with Brightspace.
+    #[serde(default)]
+    token_audience: String,
     /// Id of a deployment.
     #[serde(default)]
     deployment: String,
@@ -197,7 +200,7 @@ pub(super) async fn add(
         auth_url: wish.auth_url,
         token_url: wish.token_url,
         keys_url: wish.keys_url,
-        token_audience: None,
+        token_audience: registration::audience(&wish.token_audience),
         is_active: 1,
     };
     let platform = registration::keep(&service, platform, Some(wish.deployment.trim())).await?;

@@ -93,6 +93,11 @@ pub async fn register(service: &Service, secret: &str, asked: &RegistrationQuery
     Ok(platform)
 }
 
+/// Who a request for a token is addressed to, as somebody typed it: nothing stands for the address itself.
+pub fn audience(typed: &str) -> Option<String> {
+    Some(typed.trim().to_owned()).filter(|typed| !typed.is_empty())
+}
+
 /// Keeps a platform with its first deployment. One without a name is called by its issuer.
 pub async fn keep(service: &Service, platform: Platform, deployment: Option<&str>) -> Result<Platform, Problem> {
     let has_name = !platform.name.trim().is_empty();

@@ -37,6 +37,8 @@ pub struct Seen {
     pub tools_keys: Option<JwkSet>,
     pub registration: Value,
     pub scores: Vec<Value>,
+    /// To whom requests for tokens are to be addressed, where that is not their address.
+    pub audience: Option<String>,
     /// Shares no names of its people.
     pub is_nameless: bool,
     /// Answers scores with this status.
@@ -175,7 +177,8 @@ async fn jwks(State(platform): State<Platform>) -> Json<JwkSet> {
 async fn token(State(platform): State<Platform>, Form(form): Form<HashMap<String, String>>) -> Json<Value> {
     assert_eq!(form["grant_type"], "client_credentials");
     assert_eq!(form["client_assertion_type"], "urn:ietf:params:oauth:client-assertion-type:jwt-bearer");
-    let claims = platform.checked(&form["client_assertion"], &format!("{}/token", platform.issuer));
+    let audience = platform.seen().audience.clone().unwrap_or_else(|| format!("{}/token", platform.issuer));
+    let claims = platform.checked(&form["client_assertion"], &audience);
     assert_eq!((&claims["sub"], claims["jti"].is_string()), (&json!(CLIENT), true));
     platform.seen().tokens += 1;
     Json(json!({ "access_token": TOKEN, "token_type": "bearer", "expires_in": 3600, "scope": form["scope"] }))

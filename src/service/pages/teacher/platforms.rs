@@ -61,6 +61,7 @@ pub(in crate::service::pages) struct PlatformForm {
     auth_url: String,
     token_url: String,
     keys_url: String,
+    token_audience: String,
 }
 
 /// What the form says for no course.
@@ -213,7 +214,7 @@ async fn carried_out(
                 auth_url: text(&wish.auth_url),
                 token_url: text(&wish.token_url),
                 keys_url: text(&wish.keys_url),
-                token_audience: None,
+                token_audience: registration::audience(&wish.token_audience),
                 is_active: 1,
             };
             registration::keep(service, platform, Some(wish.deployment.trim())).await?;
