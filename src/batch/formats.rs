@@ -38,6 +38,8 @@ pub enum ClassFormat {
     Html,
     /// A table for spreadsheets.
     Csv,
+    /// The same for programs.
+    Json,
     /// The columns that nbgrader exports.
     Nbgrader,
     /// The columns that Canvas imports.
@@ -87,7 +89,7 @@ const fn row(
 }
 
 /// In the order of the variants, which is the order in which help lists them.
-const TABLE: [FormatRow; 14] = [
+const TABLE: [FormatRow; 15] = [
     row(
         ClassFormat::Html,
         "html",
@@ -101,6 +103,13 @@ const TABLE: [FormatRow; 14] = [
         &["grades.csv"],
         "A table for Excel and other spreadsheets",
         "Excel などの表計算ソフトで開ける成績表",
+    ),
+    row(
+        ClassFormat::Json,
+        "json",
+        &["grades.json"],
+        "The same table for programs, as JSON",
+        "同じ成績表の JSON（プログラム用）",
     ),
     row(
         ClassFormat::Nbgrader,
@@ -216,6 +225,7 @@ impl ClassFormat {
             | Self::Coderunner => true,
             Self::Html
             | Self::Csv
+            | Self::Json
             | Self::Nbgrader
             | Self::Canvas
             | Self::GradescopeGrades

@@ -73,6 +73,8 @@ fn is_usual(format: ClassFormat, given: OutputOptions) -> bool {
         ClassFormat::MoodleFeedback => given.moodle && given.worksheet && !given.anonymous,
         // Their columns say what grades.csv says, for those who have that gradebook.
         ClassFormat::Nbgrader | ClassFormat::Canvas | ClassFormat::GradescopeGrades => false,
+        // Programs that run a batch have results.jsonl.
+        ClassFormat::Json => false,
         _ => true,
     }
 }
@@ -140,6 +142,7 @@ fn one(class: &Class, format: ClassFormat, sheet: Option<&[u8]>, folder: &Output
     match format {
         ClassFormat::Html => whole(page::render(class)?),
         ClassFormat::Csv => whole(grades::render(class)?),
+        ClassFormat::Json => whole(grades::json(class)?),
         ClassFormat::Nbgrader => whole(gradebooks::nbgrader(class)?),
         ClassFormat::Canvas => whole(gradebooks::canvas(class)?),
         ClassFormat::GradescopeGrades => whole(gradebooks::gradescope(class)?),
@@ -185,7 +188,8 @@ mod tests {
     fn by_default_everything_is_written_that_can_be() {
         let all = choose(&[], ALL).unwrap();
         let left_out: Vec<_> = ClassFormat::value_variants().iter().filter(|format| !all.contains(format)).collect();
-        assert_eq!(left_out, [&ClassFormat::Nbgrader, &ClassFormat::Canvas, &ClassFormat::GradescopeGrades]);
+        let others = [ClassFormat::Json, ClassFormat::Nbgrader, ClassFormat::Canvas, ClassFormat::GradescopeGrades];
+        assert_eq!(left_out, others.iter().collect::<Vec<_>>());
         let none = choose(&[], OutputOptions::default()).unwrap();
         assert!(none.contains(&ClassFormat::Html) && !none.contains(&ClassFormat::MoodleFeedback));
     }

@@ -83,6 +83,21 @@ async fn a_moodle_archive_is_graded_behind_the_scenes(database: Database) {
     }
     let csv = get(&bench, &format!("{location}/files/csv?lang=ja")).await;
     assert!(String::from_utf8_lossy(&csv.body).contains("山田 太郎"));
+    let grades = get(&bench, &format!("{location}/files/json?lang=en")).await;
+    assert!(grades.header("content-disposition").contains("grades.json"), "{grades:?}");
+    let grades = grades.json();
+    let first = grades.as_array().expect("students").iter().find(|student| student["name"] == "山田 太郎");
+    let first = first.expect("a student");
+    assert_eq!((&first["moodle_id"], &first["max_score"]), (&101.into(), &100.0.into()), "{first}");
+    assert!(first["rubric"][0]["max_points"].is_number() && first["feedback"].is_string(), "{first}");
+    // Every column of the table is a key.
+    let csv = String::from_utf8_lossy(&csv.body).into_owned();
+    let columns = csv.trim_start_matches('\u{feff}').lines().next().expect("a heading").split(',');
+    let lines: Vec<&str> =
+        first["rubric"].as_array().expect("lines").iter().filter_map(|it| it["id"].as_str()).collect();
+    for column in columns.filter(|column| !lines.contains(column)) {
+        assert!(first.get(column).is_some(), "{column} of {first}");
+    }
     let feedback = get(&bench, &format!("{location}/files/moodle-feedback")).await;
     let mut feedback = zip::ZipArchive::new(Cursor::new(feedback.body)).expect("an archive");
     let names: Vec<String> = feedback.file_names().map(|name| name.expect("a name").into_owned()).collect();

@@ -1,6 +1,6 @@
-//! `grades.csv`: the class as a table for spreadsheets.
+//! `grades.csv`: the class as a table for spreadsheets, and `grades.json`: the same for programs.
 //!
-//! UTF-8 with a byte-order mark and CRLF, so that Excel opens it as it is; what could be a formula is text.
+//! The table is UTF-8 with a byte-order mark and CRLF, so that Excel opens it as it is; what could be a formula is text.
 
 use super::plain::cell;
 use super::status::summary;
@@ -8,9 +8,10 @@ use crate::batch::class::{Class, ClassEntry};
 use crate::batch::standing::Standing;
 use crate::fault::Fault;
 use crate::language::Text;
-use crate::report::Report;
 use crate::report::labels::mistake_title;
+use crate::report::{Report, RubricLine};
 use csv::{QuoteStyle, Terminator, WriterBuilder};
+use serde_json::{Value, json};
 
 const BOM: &[u8] = b"\xef\xbb\xbf";
 const BEFORE_RUBRIC: [&str; 6] = ["key", "name", "moodle_id", "verdict", "score", "max_score"];
@@ -38,6 +39,40 @@ pub fn render(class: &Class) -> Result<Vec<u8>, Fault> {
     write(&mut writer, std::iter::once(header.collect()).chain(rows))?;
     drop(writer);
     Ok(bytes)
+}
+
+/// The class as JSON: an object a student, in the order of the class, with the columns of the table as its keys.
+pub fn json(class: &Class) -> Result<Vec<u8>, Fault> {
+    let students: Vec<Value> = class.entries.iter().map(|entry| object(entry, class)).collect();
+    let mut json =
+        serde_json::to_vec_pretty(&students).map_err(|error| Fault::new(Text::verbatim(error.to_string())))?;
+    json.push(b'\n');
+    Ok(json)
+}
+
+fn object(entry: &ClassEntry, class: &Class) -> Value {
+    let (report, student) = (entry.report(), &entry.student);
+    let lateness = report.and_then(|report| report.lateness);
+    let line = |line: &RubricLine| json!({ "id": line.id, "points": line.points, "max_points": line.max_points, "graded_points": line.graded });
+    json!({
+        "key": student.key,
+        "name": student.name,
+        "moodle_id": student.moodle.as_ref().and_then(|moodle| moodle.number),
+        "verdict": Standing::of(&entry.outcome).id(),
+        "score": report.map(|report| report.score),
+        "max_score": report.map(|report| report.max_score),
+        "rubric": report.map(|report| report.rubric.iter().map(line).collect::<Vec<_>>()),
+        "mistakes": report.map(|report| &report.mistakes),
+        "mistake_titles": report.map(|report| titles(report, class).collect::<Vec<_>>()),
+        "feedback": summary(entry, class.language),
+        "shares_with": entry.shares_with().collect::<Vec<_>>(),
+        "alike": entry.alike,
+        "file": entry.path(),
+        "sha256": report.map(Report::sha256),
+        "late_minutes": lateness.map(|lateness| lateness.milliseconds.div_ceil(60_000)),
+        "late_penalty": lateness.map(|lateness| lateness.penalty),
+        "total": report.map(Report::total),
+    })
 }
 
 /// Ids of the rubric's lines, in the order in which the reports have them.
@@ -73,7 +108,7 @@ fn row(entry: &ClassEntry, lines: &[&str], class: &Class) -> Vec<String> {
         cell(&entry.shares_with().collect::<Vec<_>>().join(" ")),
         cell(&entry.path().unwrap_or_default()),
         report.map(|report| cell(&report.sha256())).unwrap_or_default(),
-        report.map(|report| cell(&titles(report, class))).unwrap_or_default(),
+        report.map(|report| cell(&titles(report, class).collect::<Vec<_>>().join(" / "))).unwrap_or_default(),
         lateness.map(|lateness| lateness.milliseconds.div_ceil(60_000).to_string()).unwrap_or_default(),
         lateness.map(|lateness| exact(lateness.penalty)).unwrap_or_default(),
         report.map(|report| exact(report.total())).unwrap_or_default(),
@@ -83,9 +118,8 @@ fn row(entry: &ClassEntry, lines: &[&str], class: &Class) -> Vec<String> {
 }
 
 /// The mistakes by their titles. A comma stands inside of some; a semicolon cuts a cell in some spreadsheets.
-fn titles(report: &Report, class: &Class) -> String {
-    let titles = report.mistakes.iter().map(|id| mistake_title(&class.assignment, id, class.language));
-    titles.collect::<Vec<_>>().join(" / ")
+fn titles(report: &Report, class: &Class) -> impl Iterator<Item = String> {
+    report.mistakes.iter().map(|id| mistake_title(&class.assignment, id, class.language))
 }
 
 /// A number as every spreadsheet of an English or Japanese computer reads it; empty when there is none.

@@ -8,7 +8,7 @@ use crate::batch::class::{Class, ClassEntry, Outcome};
 use crate::batch::formats::plain::cell;
 use crate::batch::formats::{grades, page as class_page};
 use crate::fault::Fault;
-use crate::language::{Language, Text};
+use crate::language::Language;
 use crate::report::html::BASE_STYLE;
 use crate::report::json;
 use crate::report::text::number;
@@ -18,10 +18,9 @@ use crate::service::classes::Made;
 use crate::service::classes::people::people;
 use crate::service::clock::rfc3339;
 use crate::service::errors::Problem;
-use crate::service::store::{NamedAct, word};
+use crate::service::store::NamedAct;
 use crate::service::{Service, download};
 use askama::Template;
-use serde_json::{Value, json};
 use std::collections::HashSet;
 use std::path::Path;
 use std::sync::Arc;
@@ -170,38 +169,14 @@ fn points(total: f64, most: f64) -> String {
 
 /// The class page and the grades.
 fn written(class: &Class, folder: &Path) -> Result<(), Fault> {
-    let grades_json = serde_json::to_vec_pretty(&class.entries.iter().map(line).collect::<Vec<_>>());
-    let grades_json = grades_json.map_err(|error| Fault::new(Text::verbatim(error.to_string())))?;
     for (name, bytes) in [
         ("report.html", class_page::render(class)?),
         ("grades.csv", grades::render(class)?),
-        ("grades.json", grades_json),
+        ("grades.json", grades::json(class)?),
     ] {
         std::fs::write(folder.join(name), bytes).map_err(|error| disk(&error))?;
     }
     Ok(())
-}
-
-/// A student's line of `grades.json`.
-fn line(entry: &ClassEntry) -> Value {
-    let report = entry.report();
-    let lines = report.map(|report| {
-        let line = |line: &crate::report::RubricLine| {
-            json!({ "id": line.id, "points": line.points, "max_points": line.max_points, "graded_points": line.graded })
-        };
-        report.rubric.iter().map(line).collect::<Vec<_>>()
-    });
-    json!({
-        "key": entry.student.key,
-        "name": entry.student.name,
-        "verdict": report.map(|report| word(&report.verdict)),
-        "score": report.map(|report| report.score),
-        "max_score": report.map(|report| report.max_score),
-        "late_penalty": report.and_then(|report| report.lateness).map(|lateness| lateness.penalty),
-        "total": report.map(|report| report.total()),
-        "rubric": lines,
-        "mistakes": report.map(|report| &report.mistakes),
-    })
 }
 
 /// The log as CSV, the latest first.
