@@ -78,9 +78,13 @@ impl Gradebook {
         Ok(Self { homeworks, lines: lines.into_values().collect() })
     }
 
-    /// The same as a file for a spreadsheet. Under the ids of the homeworks stand their most
-    /// points; a cell where nothing is graded is empty.
-    pub fn csv(&self, name: &str) -> Result<Response, Problem> {
+    /// The same as a file to be saved.
+    pub fn file(&self, name: &str) -> Result<Response, Problem> {
+        Ok(download::saved(name, "text/csv; charset=utf-8", self.csv()?))
+    }
+
+    /// The same for a spreadsheet. Under the ids of the homeworks stand their most points; a cell where nothing is graded is empty.
+    pub fn csv(&self) -> Result<Vec<u8>, Problem> {
         let row = |who: [String; 2], points: Vec<String>, total: String| {
             who.into_iter().chain(points).chain([total]).collect::<Vec<String>>()
         };
@@ -92,7 +96,7 @@ impl Gradebook {
         };
         let heading = row(["student", "name"].map(str::to_owned), ids, "total".to_owned());
         let most = row([String::new(), String::new()], most, rounded(self.most()));
-        download::table(name, [heading, most].into_iter().chain(self.lines.iter().map(of_line)))
+        download::csv([heading, most].into_iter().chain(self.lines.iter().map(of_line)))
     }
 }
 

@@ -26,6 +26,7 @@ mod teacher;
 mod terms;
 
 pub use assets::warm;
+pub(super) use datetime::TimeElement;
 pub use frame::PageFrame;
 pub(super) use lti::{launch_lost, shown_choice};
 pub use preview::broken_folder;

@@ -34,6 +34,9 @@ async fn a_term_is_one_file(database: Database) {
     let set = form(&bench, &format!("/r/{}/override", ids[1]), "line=specular&points=30&reason=by+hand").await;
     assert_eq!(set.status, StatusCode::SEE_OTHER);
 
+    let course = "zone=America%2FNew_York&language=en&title=Computer+Graphics";
+    assert_eq!(form(&bench, "/teacher/course", course).await.status, StatusCode::SEE_OTHER);
+
     let (_, zip) = made(&bench, form(&bench, "/teacher/data/archive", "").await).await;
     let files = unpacked(zip.body);
     let text = |name: &str| {
@@ -51,6 +54,15 @@ async fn a_term_is_one_file(database: Database) {
         assert!(files.contains_key(&*link), "{link}");
     }
     assert!(index.contains("和田 花子") && index.contains("山本 次郎") && !index.contains("src=\"http"), "{index}");
+    // It is of this course, with its times, and everybody has a sum.
+    assert!(index.contains("<title>Computer Graphics · ") && index.contains("<bdi>Computer Graphics</bdi>"), "{index}");
+    let times = scraper::Selector::parse("time").expect("a selector");
+    let times: Vec<String> = page.select(&times).map(|time| time.text().collect()).collect();
+    assert!(times.len() > 2 && times.iter().all(|time| time.ends_with(" EST") || time.ends_with(" EDT")), "{times:?}");
+    let sums = scraper::Selector::parse("#gradebook tbody tr").expect("a selector");
+    let sums: Vec<String> = page.select(&sums).map(|line| line.text().collect()).collect();
+    assert_eq!(sums, ["S1 和田 花子9090", "S2 山本 次郎–0"]);
+    assert!(text("gradebook.csv").contains("\nS1,和田 花子,90,90\r\n"), "{}", text("gradebook.csv"));
     assert_eq!(files["ggsample06/hand-ins/S1/02/ggsample06.vert"], right());
     let page = text("ggsample06/students/S1.html");
     assert!(

@@ -8,7 +8,7 @@ use jiff::{Timestamp, Zoned};
 
 /// A moment for a `time` element.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct TimeElement {
+pub(in crate::service) struct TimeElement {
     /// As machines read it.
     pub iso: String,
     /// As people do.

@@ -1,5 +1,5 @@
 //! A term as one file that opens without ggrade: of every homework the class page, everyone's feedback page, everything that
-//! was handed in, the grades as CSV and JSON; and the log of what teachers did.
+//! was handed in, the grades as CSV and JSON; and the gradebook of the course and the log of what teachers did.
 
 use super::members::{class, members, student};
 use super::written::{disk, page, zip_into};
@@ -18,9 +18,12 @@ use crate::service::classes::Made;
 use crate::service::classes::people::people;
 use crate::service::clock::rfc3339;
 use crate::service::errors::Problem;
+use crate::service::gradebook::{Gradebook, GradebookPerson, rounded};
+use crate::service::pages::TimeElement;
 use crate::service::store::NamedAct;
 use crate::service::{Service, download};
 use askama::Template;
+use jiff::tz::TimeZone;
 use std::collections::HashSet;
 use std::path::Path;
 use std::sync::Arc;
@@ -32,8 +35,27 @@ struct Index {
     language: Language,
     tag: &'static str,
     style: &'static str,
-    at: String,
+    /// What the course is called, where somebody said.
+    course: String,
+    at: TimeElement,
     homeworks: Vec<ArchivedHomework>,
+    gradebook: ArchivedGradebook,
+}
+
+/// Everybody with the points of the course.
+struct ArchivedGradebook {
+    /// Titles of the homeworks, and what each counts.
+    homeworks: Vec<(String, String)>,
+    most: String,
+    lines: Vec<ArchivedSum>,
+}
+
+/// A line of it.
+struct ArchivedSum {
+    number: String,
+    name: String,
+    points: Vec<String>,
+    total: String,
 }
 
 impl Index {
@@ -59,17 +81,19 @@ struct ArchivedStudent {
     points: String,
     has_page: bool,
     /// Paths of what they handed in, the oldest first, and when each came.
-    files: Vec<(String, String)>,
+    files: Vec<(String, TimeElement)>,
 }
 
 /// Makes the archive of all homeworks.
 pub async fn archive(service: &Service, language: Language, steps: &Arc<Steps>) -> Result<Made, Problem> {
     let folder = tempfile::tempdir().map_err(|error| Problem::of_fault(&disk(&error)))?;
+    let course = service.store.course().await?;
     let mut homeworks = Vec::new();
     for state in service.homeworks() {
-        homeworks.push(homework(&state, folder.path(), language, steps).await?);
+        homeworks.push(homework(&state, folder.path(), language, course.zone(), steps).await?);
     }
-    let log = log(service).await?;
+    let (log, book) = (log(service).await?, Gradebook::of(service, language).await?);
+    let sums = book.csv()?;
     let index = Index {
         language,
         tag: match language {
@@ -77,12 +101,15 @@ pub async fn archive(service: &Service, language: Language, steps: &Arc<Steps>) 
             Language::Ja => "ja",
         },
         style: BASE_STYLE,
-        at: rfc3339(service.clock.now()),
+        at: TimeElement::zoned(service.clock.now(), language, course.zone()),
+        course: course.title,
         homeworks,
+        gradebook: gradebook(book),
     };
     let index = index.render().map_err(|error| Problem::internal(&error))?;
     let written = aside(move || {
         std::fs::write(folder.path().join("index.html"), index)?;
+        std::fs::write(folder.path().join("gradebook.csv"), sums)?;
         std::fs::write(folder.path().join("log.csv"), log)?;
         let file = tempfile::NamedTempFile::new()?;
         zip_into(folder.path(), file.as_file())?;
@@ -94,11 +121,26 @@ pub async fn archive(service: &Service, language: Language, steps: &Arc<Steps>) 
     Ok(Made { name: "term.zip".to_owned(), path, bytes, notes: Vec::new() })
 }
 
+fn gradebook(book: Gradebook) -> ArchivedGradebook {
+    let line = |line: &GradebookPerson| ArchivedSum {
+        number: line.number.clone(),
+        name: line.name.clone(),
+        points: line.points.iter().map(|points| points.map_or_else(|| "–".to_owned(), rounded)).collect(),
+        total: rounded(line.total()),
+    };
+    ArchivedGradebook {
+        most: rounded(book.most()),
+        lines: book.lines.iter().map(line).collect(),
+        homeworks: book.homeworks.into_iter().map(|one| (one.title, rounded(one.points))).collect(),
+    }
+}
+
 /// Writes one homework into its folder.
 async fn homework(
     state: &State,
     root: &Path,
     language: Language,
+    zone: &TimeZone,
     steps: &Arc<Steps>,
 ) -> Result<ArchivedHomework, Problem> {
     let id = state.assignment.id.clone();
@@ -140,7 +182,7 @@ async fn homework(
             for file in state.store.hand_in(&submission.id).await?.unwrap_or_default().files {
                 let path = format!("{into}/{}", download::plain_name(&file.name));
                 std::fs::write(folder.join(&path), &file.bytes).map_err(failed)?;
-                files.push((path, rfc3339(submission.received_at)));
+                files.push((path, TimeElement::zoned(submission.received_at, language, zone)));
             }
             if let Some(report) = state.store.stored(&submission.id).await?.and_then(|stored| stored.report) {
                 std::fs::write(folder.join(&into).join("report.json"), json::render(&report, language))

@@ -66,5 +66,5 @@ pub(in crate::service::pages) async fn file(
 ) -> Result<Response, Problem> {
     teacher.check_course()?;
     let book = Gradebook::of(&service, frame.language).await?;
-    book.csv(&format!("{}-gradebook.csv", service.course_id().unwrap_or("course")))
+    book.file(&format!("{}-gradebook.csv", service.course_id().unwrap_or("course")))
 }
