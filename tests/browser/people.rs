@@ -54,7 +54,9 @@ async fn likeness_insights_and_data_fit_every_screen() {
                 "(box => box.left >= 0 && box.right <= innerWidth)({open}.lastElementChild.getBoundingClientRect())"
             );
             browser.until(&within).await;
-            browser.js(&format!("{open}.open = false")).await;
+            browser.js(&format!("{open}.querySelector('a, button').focus()")).await;
+            browser.press("Escape", 27, 0).await;
+            browser.until(&format!("!{open}.open && document.activeElement === {open}.firstElementChild")).await;
         }
     }
     browser.languages("en").await;

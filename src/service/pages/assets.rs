@@ -63,6 +63,7 @@ static ASSETS: LazyLock<Vec<Asset>> = LazyLock::new(|| {
         Asset::text("student.js", include_str!("assets/student.js")),
         Asset::text("preview.js", include_str!("assets/preview.js")),
         Asset::text("live.js", include_str!("assets/live.js")),
+        Asset::text("menus.js", include_str!("assets/menus.js")),
         Asset::text("icon.svg", include_str!("assets/icon.svg")),
     ]
 });
