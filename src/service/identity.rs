@@ -31,8 +31,8 @@ pub(super) use join::become_student;
 pub use join::{
     check_course_link, course_link, course_secret, join, leave, normal_number, renew_course_secret, with_code,
 };
-pub(super) use login::forget_session;
 pub use login::{LoginForm, login, logout, open_for};
+pub(super) use login::{check_session, forget_session};
 pub use origin::is_own_page;
 pub(super) use secrets::{equal_secrets, hex};
 pub use secrets::{hash_password, new_id, new_token, token_hash};

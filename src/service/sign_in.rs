@@ -15,13 +15,14 @@ use super::identity::{
     Jar, Visitor, become_student, forget_session, has_launch, member_of, new_token, normal_number, open_for,
     set_sign_in, token_hash,
 };
+use super::proxied::ProxiedName;
 use super::store::{Proof, SignIn};
 use super::{Service, lti};
-use axum::Router;
 use axum::extract::{Path, Query, State as Shared};
 use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::{IntoResponse, Redirect, Response};
 use axum::routing::get;
+use axum::{Extension, Router};
 use base64::prelude::{BASE64_URL_SAFE_NO_PAD, Engine};
 use reqwest::Url;
 use serde::Deserialize;
@@ -103,6 +104,7 @@ async fn finish(
     Shared(service): Shared<Service>,
     headers: HeaderMap,
     visitor: Visitor,
+    proxied: Option<Extension<ProxiedName>>,
     Query(answer): Query<IssuerResponse>,
 ) -> Result<Response, Problem> {
     let begun = service.store.take_sign_in(&token_hash(&answer.state), service.clock.now()).await?;
@@ -140,19 +142,20 @@ async fn finish(
         ));
     }
     let (full, short) = provider.names(&claims)?;
-    enter(&service, visitor, (&full, &short), begun.homework.as_deref()).await
+    let said = proxied.map(|Extension(said)| said);
+    enter(&service, (visitor, said.as_ref()), (&full, &short), begun.homework.as_deref()).await
 }
 
 /// Lets somebody in by their name: with the account of this login, or as the student with this number.
 async fn enter(
     service: &Service,
-    visitor: Visitor,
+    (visitor, said): (Visitor, Option<&ProxiedName>),
     (full, short): (&str, &str),
     homework: Option<&str>,
 ) -> Result<Response, Problem> {
     for login in [full, short] {
         if let Some(member) = member_of(service, login).await? {
-            return open_for(service, member, "/teacher", Jar::Own).await;
+            return open_for(service, member, "/teacher", (Jar::Own, said)).await;
         }
     }
     let student = match normal_number(short) {

@@ -135,7 +135,7 @@ async fn an_archive_and_a_submission_go_alone(database: Database) {
     assert_eq!((refused.status, refused.problem().as_str()), (StatusCode::UNAUTHORIZED, "unauthorized"));
     let session = ggrade::service::identity::new_token();
     let hash = ggrade::service::identity::token_hash(&session);
-    let open = ggrade::service::store::TeacherSession { assignment: None, staff: None };
+    let open = ggrade::service::store::TeacherSession::default();
     bench.state.store.open_session(&hash, &open, 0, i64::MAX).await.expect("a session");
     let forged = Request::post("/teacher/delete")
         .header(header::COOKIE, format!("ggrade_teacher={session}"))

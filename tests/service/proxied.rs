@@ -9,12 +9,13 @@ use ggrade::service::Config;
 use ggrade::service::clock::Clock;
 use ggrade::service::identity::add_staff;
 use ggrade::service::limits::Peer;
-use ggrade::service::store::{RosterLine, StaffRole};
+use ggrade::service::store::{RosterLine, StaffRole, TeacherSession};
 use std::net::SocketAddr;
 use std::sync::Arc;
 
 on_both!(
     students_and_staff_come_in_by_the_proxys_word,
+    a_session_is_over_when_the_proxy_names_somebody_else,
     nobody_else_is_believed,
     without_a_header_in_the_configuration_nobody_is,
 );
@@ -103,6 +104,42 @@ async fn students_and_staff_come_in_by_the_proxys_word(database: Database) {
     assert_eq!(page.all("nav .who"), ["Logged in: P"]);
     let login = Browser::default().send(&bench, "GET", "/teacher/login", (PROXY, &["S1"])).await;
     assert_eq!(login.status, StatusCode::OK, "a student is shown the form");
+    bench.finish().await;
+}
+
+async fn a_session_is_over_when_the_proxy_names_somebody_else(database: Database) {
+    let bench = bench(database, Some("X-Remote-User")).await;
+    for login in ["boss", "prof"] {
+        add_staff(&bench.state, login, login, StaffRole::Administrator).await.expect("an account");
+    }
+    const PAGES: [&str; 3] = ["/teacher", "/teacher/settings", "/api/v1/roster"];
+    let open = async |browser: &mut Browser, names: &[&str]| {
+        let mut open = Vec::new();
+        for page in PAGES {
+            open.push(browser.send(&bench, "GET", page, (PROXY, names)).await.status == StatusCode::OK);
+        }
+        assert!(open.iter().all(|is| *is == open[0]), "{names:?}: {open:?}");
+        open[0]
+    };
+    for others in [&["S1"][..], &["boss"], &["nobody"]] {
+        let mut browser = Browser::default();
+        browser.send(&bench, "GET", "/teacher/login", (PROXY, &["prof"])).await;
+        assert!(open(&mut browser, &["Prof"]).await, "however the proxy writes it");
+        // Pages that the proxy lets everybody ask for come without a name: nothing is shown there, and nothing ends.
+        assert!(!open(&mut browser, &[]).await);
+        assert!(open(&mut browser, &["prof"]).await);
+        assert!(!open(&mut browser, others).await, "{others:?}");
+        assert!(!open(&mut browser, &["prof"]).await, "{others:?}: it has ended");
+    }
+    // Whoever logs in by another way is not whom the proxy names, and stays until somebody else sits there.
+    for (before, stays, ends) in [(None, &[][..], &["S1"][..]), (Some("S1"), &["S1"], &["S2"])] {
+        let token = ggrade::service::identity::new_token();
+        let session = TeacherSession { proxied_name: before.map(str::to_owned), ..TeacherSession::default() };
+        let hash = ggrade::service::identity::token_hash(&token);
+        bench.state.store.open_session(&hash, &session, 0, i64::MAX).await.expect("a session");
+        let mut browser = Browser(vec!["other=1".to_owned(), format!("ggrade_teacher={token}")]);
+        assert!(open(&mut browser, stays).await && !open(&mut browser, ends).await && !open(&mut browser, stays).await);
+    }
     bench.finish().await;
 }
 

@@ -47,6 +47,18 @@ pub(in crate::service) fn named<'a>(headers: &'a HeaderMap, name: &str) -> Optio
     pairs.find(|(found, _)| *found == name).map(|(_, value)| value)
 }
 
+/// Takes a cookie of ours out of a request.
+pub(super) fn remove(service: &Service, headers: &mut HeaderMap, base: &str) {
+    let start = format!("{}=", name(service, base));
+    let values = headers.get_all(header::COOKIE).iter().filter_map(|value| value.to_str().ok());
+    let pairs = values.flat_map(|value| value.split(';')).map(str::trim).filter(|pair| !pair.starts_with(&start));
+    let rest = pairs.collect::<Vec<_>>().join("; ");
+    match HeaderValue::from_str(&rest) {
+        Ok(rest) if !rest.is_empty() => headers.insert(header::COOKIE, rest),
+        _ => headers.remove(header::COOKIE),
+    };
+}
+
 /// Whether a response sets this cookie of ours.
 pub(super) fn is_set(service: &Service, headers: &HeaderMap, base: &str) -> bool {
     let start = format!("{}=", name(service, base));

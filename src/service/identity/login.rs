@@ -1,7 +1,7 @@
 //! Logging in and out.
 
 use super::accounts::in_course;
-use super::cookies::{Jar, TEACHER_COOKIE, set};
+use super::cookies::{Jar, TEACHER_COOKIE, read, remove, set};
 use super::secrets::{hash_password, password_matches};
 use super::staff::{LONGEST_PASSWORD, PASSWORD_SETTING, normal_login};
 use super::teacher::of_token;
@@ -11,8 +11,9 @@ use crate::service::blocking::aside;
 use crate::service::clock::millis;
 use crate::service::errors::Problem;
 use crate::service::limits::Client;
+use crate::service::proxied::ProxiedName;
 use crate::service::store::{Act, StaffMember, TeacherSession};
-use axum::http::{StatusCode, header};
+use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::{IntoResponse, Redirect, Response};
 use serde::Deserialize;
 use std::sync::LazyLock;
@@ -38,6 +39,7 @@ pub async fn login(
     service: &Service,
     client: &Client,
     visitor: &Visitor,
+    said: Option<&ProxiedName>,
     form: &LoginForm,
 ) -> Result<Response, Problem> {
     visitor.check_csrf(service, &form.csrf)?;
@@ -62,18 +64,29 @@ pub async fn login(
         }
         _ => "/teacher",
     };
-    open(service, session, page, Jar::Own).await
+    open(service, session, page, (Jar::Own, said)).await
 }
 
-/// Opens the session of somebody who is known.
-pub async fn open_for(service: &Service, member: StaffMember, page: &str, jar: Jar) -> Result<Response, Problem> {
+/// Opens the session of somebody who is known, in a browser for which a reverse proxy named somebody or did not.
+pub async fn open_for(
+    service: &Service,
+    member: StaffMember,
+    page: &str,
+    place: (Jar, Option<&ProxiedName>),
+) -> Result<Response, Problem> {
     if service.is_beside() {
         service.accounts().keep_account(&member, service.clock.now()).await?;
     }
-    open(service, TeacherSession { assignment: None, staff: Some(member) }, page, jar).await
+    open(service, TeacherSession { staff: Some(member), ..TeacherSession::default() }, page, place).await
 }
 
-async fn open(service: &Service, session: TeacherSession, page: &str, jar: Jar) -> Result<Response, Problem> {
+async fn open(
+    service: &Service,
+    session: TeacherSession,
+    page: &str,
+    (jar, said): (Jar, Option<&ProxiedName>),
+) -> Result<Response, Problem> {
+    let session = TeacherSession { proxied_name: said.map(|ProxiedName(name)| name.clone()), ..session };
     let token = new_token();
     let now = service.clock.now();
     service.accounts().open_session(&token_hash(&token), &session, now, now + millis(SESSION)).await?;
@@ -121,6 +134,32 @@ pub(in crate::service) fn forget_session(service: &Service, response: &mut Respo
     }
 }
 
+/// Ends the session of a request whose proxy names somebody else than when it was opened: another person sits there. Where it names
+/// nobody any more, the request goes on without the session, which is not ended: the proxy may let everybody ask for some pages.
+pub(in crate::service) async fn check_session(
+    service: &Service,
+    headers: &mut HeaderMap,
+    said: Option<&ProxiedName>,
+) -> Result<(), Problem> {
+    let Some(hash) = read(service, headers, TEACHER_COOKIE).map(|token| token_hash(&token)) else { return Ok(()) };
+    let session = service.accounts().session(&hash, service.clock.now()).await?;
+    if session.is_none_or(|session| is_of(&session, said)) {
+        return Ok(());
+    }
+    if said.is_some() {
+        service.accounts().close_session(Some(&hash)).await?;
+    }
+    remove(service, headers, TEACHER_COOKIE);
+    Ok(())
+}
+
+/// Whether a session is that of whom a proxy names: the one of its account, or whom it named when the session was opened.
+fn is_of(session: &TeacherSession, said: Option<&ProxiedName>) -> bool {
+    let Some(ProxiedName(name)) = said else { return session.proxied_name.is_none() };
+    let login = session.staff.as_ref().map(|member| &member.login);
+    [login, session.proxied_name.as_ref()].into_iter().flatten().any(|known| known.eq_ignore_ascii_case(name))
+}
+
 /// What a login and a password open, or a secret of the whole service without a login.
 async fn opened(service: &Service, login: &str, password: &str) -> Result<Option<TeacherSession>, Problem> {
     if login.trim().is_empty() {
@@ -136,7 +175,7 @@ async fn opened(service: &Service, login: &str, password: &str) -> Result<Option
         None => (None, NOBODYS.clone()),
     };
     let is_right = matches(service, password, hash).await?;
-    Ok(member.filter(|_| is_right).map(|member| TeacherSession { assignment: None, staff: Some(member) }))
+    Ok(member.filter(|_| is_right).map(|member| TeacherSession { staff: Some(member), ..TeacherSession::default() }))
 }
 
 /// The hash of a password that nobody knows.
@@ -147,14 +186,14 @@ static NOBODYS: LazyLock<String> = LazyLock::new(|| hash_password(&new_token()).
 async fn shared(service: &Service, secret: &str) -> Result<Option<TeacherSession>, Problem> {
     let is_first = !service.accounts().has_administrator().await?;
     if is_first && let Some(assignment) = of_token(service, secret) {
-        return Ok(Some(TeacherSession { assignment, staff: None }));
+        return Ok(Some(TeacherSession { assignment, ..TeacherSession::default() }));
     }
     let hash = match &service.config.teacher_password_hash {
         Some(hash) if is_first => Some(hash.clone()),
         _ => service.accounts().setting(PASSWORD_SETTING).await?,
     };
     let Some(hash) = hash else { return Ok(None) };
-    Ok(matches(service, secret, hash).await?.then_some(TeacherSession { assignment: None, staff: None }))
+    Ok(matches(service, secret, hash).await?.then(TeacherSession::default))
 }
 
 async fn matches(service: &Service, password: &str, hash: String) -> Result<bool, Problem> {

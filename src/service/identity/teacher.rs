@@ -44,7 +44,7 @@ impl Teacher {
         }
         let Some(session) = read(service, headers, TEACHER_COOKIE) else { return Ok(None) };
         let open = service.accounts().session(&token_hash(&session), service.clock.now()).await?;
-        let Some(TeacherSession { assignment, staff }) = open else { return Ok(None) };
+        let Some(TeacherSession { assignment, staff, .. }) = open else { return Ok(None) };
         // A secret of a homework is for one of the first course.
         if assignment.is_some() && service.is_beside() {
             return Ok(None);

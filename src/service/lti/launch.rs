@@ -8,10 +8,11 @@ use super::claims::{Claims, DEEP_LINKING, RESOURCE_LINK};
 use super::people::{Described, staff, student, teaches_no_more};
 use super::{contexts, deep_linking, refused};
 use crate::service::errors::Problem;
-use axum::Form;
+use crate::service::proxied::ProxiedName;
 use axum::extract::State as Shared;
 use axum::http::HeaderMap;
 use axum::response::{IntoResponse, Redirect, Response};
+use axum::{Extension, Form};
 use serde::Deserialize;
 use serde_json::Value;
 
@@ -33,6 +34,7 @@ pub async fn launch(
     Shared(service): Shared<Service>,
     headers: HeaderMap,
     frame: PageFrame,
+    proxied: Option<Extension<ProxiedName>>,
     Form(answer): Form<LaunchForm>,
 ) -> Result<Response, Problem> {
     if !answer.error.is_empty() {
@@ -65,7 +67,7 @@ pub async fn launch(
     check_deployment(&service, &platform, claims.deployment_id.as_deref().unwrap_or_default()).await?;
     let course = contexts::course_of(&service, &platform, &claims).await?;
     match claims.message_type.as_deref() {
-        Some(RESOURCE_LINK) => open(&course, &platform, &claims, &headers).await,
+        Some(RESOURCE_LINK) => open(&course, &platform, &claims, (&headers, proxied.map(|Extension(said)| said))).await,
         Some(DEEP_LINKING) => {
             let choice = deep_linking::offer(&course, &platform, &claims, &frame).await?;
             shown_choice(frame, choice)
@@ -121,7 +123,7 @@ async fn open(
     service: &Service,
     platform: &Platform,
     claims: &Claims,
-    headers: &HeaderMap,
+    (headers, said): (&HeaderMap, Option<ProxiedName>),
 ) -> Result<Response, Problem> {
     let jar = Jar::of(headers);
     let link =
@@ -142,7 +144,7 @@ async fn open(
         let member = staff(service, platform, &who, role).await?;
         let page =
             state.map_or_else(|| format!("{}/teacher", service.root()), |state| format!("{}/teacher", state.base()));
-        return open_for(service, member, &page, jar).await;
+        return open_for(service, member, &page, (jar, said.as_ref())).await;
     }
     let Some(state) = state else {
         return Err(refused(

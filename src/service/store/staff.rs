@@ -36,12 +36,14 @@ pub struct StaffMember {
 }
 
 /// An open session of a teacher.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct TeacherSession {
     /// The homework whose class it opens; none: all.
     pub assignment: Option<String>,
     /// Whose it is; none: of who logged in with a secret of the whole service.
     pub staff: Option<StaffMember>,
+    /// Whom a reverse proxy named when it was opened.
+    pub proxied_name: Option<String>,
 }
 
 type StaffRow = (String, String, String, String, i64, i64);
@@ -226,8 +228,8 @@ impl Store {
         expires_at: Millis,
     ) -> Result<()> {
         const CLEAR: &str = "DELETE FROM teacher_sessions WHERE expires_at <= $1";
-        const SQL: &str = "INSERT INTO teacher_sessions (token_hash, created_at, expires_at, assignment, staff_id) \
-                           VALUES ($1, $2, $3, $4, $5)";
+        const SQL: &str = "INSERT INTO teacher_sessions (token_hash, created_at, expires_at, assignment, staff_id, \
+                           proxied_name) VALUES ($1, $2, $3, $4, $5, $6)";
         on!(&self.write, db => {
             sqlx::query(CLEAR).bind(now).execute(db).await?;
             sqlx::query(SQL)
@@ -236,6 +238,7 @@ impl Store {
                 .bind(expires_at)
                 .bind(&session.assignment)
                 .bind(session.staff.as_ref().map(|member| &member.id))
+                .bind(&session.proxied_name)
                 .execute(db)
                 .await?;
         });
@@ -244,13 +247,15 @@ impl Store {
 
     /// The session of a cookie, while it is open.
     pub async fn session(&self, token_hash: &str, now: Millis) -> Result<Option<TeacherSession>> {
-        const SQL: &str = "SELECT assignment, staff_id FROM teacher_sessions WHERE token_hash = $1 AND expires_at > $2";
-        let row: Option<(Option<String>, Option<String>)> =
+        const SQL: &str = "SELECT assignment, staff_id, proxied_name FROM teacher_sessions \
+                           WHERE token_hash = $1 AND expires_at > $2";
+        let row: Option<(Option<String>, Option<String>, Option<String>)> =
             on!(&self.read, db => sqlx::query_as(SQL).bind(token_hash).bind(now).fetch_optional(db).await?);
-        let Some((assignment, staff_id)) = row else { return Ok(None) };
-        let Some(staff_id) = staff_id else { return Ok(Some(TeacherSession { assignment, staff: None })) };
+        let Some((assignment, staff_id, proxied_name)) = row else { return Ok(None) };
+        let session = TeacherSession { assignment, staff: None, proxied_name };
+        let Some(staff_id) = staff_id else { return Ok(Some(session)) };
         let member = self.staff_member(&staff_id).await?.filter(|member| member.is_active);
-        Ok(member.map(|member| TeacherSession { assignment, staff: Some(member) }))
+        Ok(member.map(|member| TeacherSession { staff: Some(member), ..session }))
     }
 
     /// Ends one session; none: all.

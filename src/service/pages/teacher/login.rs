@@ -48,10 +48,10 @@ pub(in crate::service::pages) async fn page(
     if teacher.is_some() {
         return Ok(Redirect::to("/teacher").into_response());
     }
-    if let Some(Extension(ProxiedName(name))) = proxied
-        && let Some(member) = identity::member_of(&service, &name).await?
+    if let Some(Extension(said)) = proxied
+        && let Some(member) = identity::member_of(&service, &said.0).await?
     {
-        return identity::open_for(&service, member, "/teacher", Jar::Own).await;
+        return identity::open_for(&service, member, "/teacher", (Jar::Own, Some(&said))).await;
     }
     view(&service, frame, &visitor, String::new(), None).await
 }
@@ -62,9 +62,11 @@ pub(in crate::service::pages) async fn login(
     frame: PageFrame,
     visitor: Visitor,
     client: Client,
+    proxied: Option<Extension<ProxiedName>>,
     Form(form): Form<LoginForm>,
 ) -> Result<Response, Problem> {
-    match identity::login(&service, &client, &visitor, &form).await {
+    let said = proxied.as_ref().map(|Extension(said)| said);
+    match identity::login(&service, &client, &visitor, said, &form).await {
         Ok(response) => Ok(response),
         Err(problem) if problem.kind == "login" => {
             let detail = problem.detail.get(frame.language).to_owned();

@@ -9,11 +9,12 @@ use crate::service::courses::at;
 use crate::service::errors::Problem;
 use crate::service::identity::{self, Jar, Visitor};
 use crate::service::limits::Client;
+use crate::service::proxied::ProxiedName;
 use askama::Template;
-use axum::Form;
 use axum::extract::{Path, State as Shared};
 use axum::http::StatusCode;
 use axum::response::Response;
+use axum::{Extension, Form};
 use serde::Deserialize;
 
 #[derive(Template)]
@@ -77,12 +78,14 @@ pub(in crate::service::pages) async fn choose(
     frame: PageFrame,
     visitor: Visitor,
     client: Client,
+    proxied: Option<Extension<ProxiedName>>,
     Form(chosen): Form<PasswordForm>,
 ) -> Result<Response, Problem> {
     visitor.check_csrf(&service, &chosen.csrf)?;
     service.limits.login(&client)?;
+    let said = proxied.as_ref().map(|Extension(said)| said);
     match identity::choose_password(&service, &secret, &chosen.password).await {
-        Ok(member) => identity::open_for(&service, member, "/teacher", Jar::Own).await,
+        Ok(member) => identity::open_for(&service, member, "/teacher", (Jar::Own, said)).await,
         Err(problem) if problem.status == StatusCode::UNPROCESSABLE_ENTITY => {
             let detail = Some(problem.detail.get(frame.language).to_owned());
             Ok(refused(view(&service, frame, &visitor, &secret, detail).await?, problem.status))
