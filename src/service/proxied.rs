@@ -12,7 +12,8 @@ use axum::http::HeaderValue;
 use axum::middleware::Next;
 use axum::response::Response;
 
-/// Who the proxy says that somebody is: a student number, or the login of an account. An extension of the request.
+/// Who the proxy says that somebody is: a student number, or the login of an account; empty where that cannot be read, which is
+/// nobody who is known here. An extension of the request.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ProxiedName(pub String);
 
@@ -38,10 +39,37 @@ pub(super) async fn attend(
     Ok(next.run(request).await)
 }
 
-/// Whom a proxy names by these values of its header.
+/// Whom a proxy names by these values of its header; none where it says that nobody has logged in.
 fn named(values: &[HeaderValue]) -> Option<ProxiedName> {
     // A proxy that leaves what the client wrote beside its own word is set up wrongly: neither is believed.
-    let [only] = values else { return None };
-    let name = only.to_str().ok()?.trim();
-    (1..=LONGEST_NAME).contains(&name.len()).then(|| ProxiedName(name.to_owned()))
+    let name = match values {
+        [] => return None,
+        [only] => std::str::from_utf8(only.as_bytes()).ok().map(str::trim).filter(|name| name.len() <= LONGEST_NAME),
+        _ => None,
+    };
+    (name != Some("")).then(|| ProxiedName(name.unwrap_or_default().to_owned()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_cannot_be_read_is_somebody_and_nobody_who_is_known() {
+        let named = |values: &[&[u8]]| {
+            let values: Vec<_> = values.iter().map(|value| HeaderValue::from_bytes(value).expect("a value")).collect();
+            named(&values).map(|ProxiedName(name)| name)
+        };
+        let nobody: [&[&[u8]]; 3] = [&[], &[b""], &[b" "]];
+        for none in nobody {
+            assert_eq!(named(none), None, "{none:?}");
+        }
+        for (value, name) in [(&b" S1 "[..], "S1"), ("jürgen".as_bytes(), "jürgen")] {
+            assert_eq!(named(&[value]).as_deref(), Some(name));
+        }
+        let unreadable: [&[&[u8]]; 4] = [&[b"j\xfcrgen"], &[&[b'x'; 256]], &[b"S1", b"S1"], &[b"S1", b""]];
+        for unreadable in unreadable {
+            assert_eq!(named(unreadable).as_deref(), Some(""), "{unreadable:?}");
+        }
+    }
 }

@@ -4,7 +4,7 @@ use crate::bench::{Bench, Fake, Reply, config};
 use crate::cluster::Database;
 use crate::on_both;
 use axum::body::Body;
-use axum::http::{Request, StatusCode, header};
+use axum::http::{HeaderValue, Request, StatusCode, header};
 use ggrade::service::Config;
 use ggrade::service::clock::Clock;
 use ggrade::service::identity::add_staff;
@@ -40,7 +40,7 @@ impl Browser {
     async fn send(&mut self, bench: &Bench, method: &str, address: &str, (peer, names): (&str, &[&str])) -> Reply {
         let mut request = Request::builder().method(method).uri(address);
         for name in names {
-            request = request.header("x-remote-user", *name);
+            request = request.header("x-remote-user", HeaderValue::from_bytes(name.as_bytes()).expect("a value"));
         }
         let request = request.header(header::COOKIE, self.0.join("; ")).header("sec-fetch-site", "same-origin");
         let request = request.header(header::ACCEPT, "text/html").header(header::ACCEPT_LANGUAGE, "en");
@@ -92,8 +92,13 @@ async fn students_and_staff_come_in_by_the_proxys_word(database: Database) {
         1,
         "nothing in the first one's name"
     );
-    // Whoever is no student of the course is nobody.
-    assert!(browser.known_as(&bench, (PROXY, &["S9"])).await.is_empty());
+    // Whoever is no student of the course is nobody, and so is whose name cannot be read: nothing of who sat there before is theirs.
+    let long = "x".repeat(300);
+    for names in [&["S9"][..], &["jürgen"], &[long.as_str()], &["S2", "S2"], &["S1, S2"], &["a/b"]] {
+        assert_eq!(browser.known_as(&bench, (PROXY, &["S2"])).await, ["S2"]);
+        assert!(browser.known_as(&bench, (PROXY, names)).await.is_empty(), "{names:?}");
+        assert!(browser.known_as(&bench, (PROXY, &[])).await.is_empty(), "{names:?}: the cookie is another one");
+    }
 
     // Who teaches has an account by that login, and comes in without a password.
     add_staff(&bench.state, "prof@example.ac.jp", "P", StaffRole::Administrator).await.expect("an account");
@@ -121,7 +126,7 @@ async fn a_session_is_over_when_the_proxy_names_somebody_else(database: Database
         assert!(open.iter().all(|is| *is == open[0]), "{names:?}: {open:?}");
         open[0]
     };
-    for others in [&["S1"][..], &["boss"], &["nobody"]] {
+    for others in [&["S1"][..], &["boss"], &["nobody"], &["jürgen"], &["prof", "prof"]] {
         let mut browser = Browser::default();
         browser.send(&bench, "GET", "/teacher/login", (PROXY, &["prof"])).await;
         assert!(open(&mut browser, &["Prof"]).await, "however the proxy writes it");

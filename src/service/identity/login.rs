@@ -153,9 +153,13 @@ pub(in crate::service) async fn check_session(
     Ok(())
 }
 
-/// Whether a session is that of whom a proxy names: the one of its account, or whom it named when the session was opened.
+/// Whether a session is that of whom a proxy names: the one of its account, or whom it named when the session was opened. One whose name
+/// cannot be read may be anybody.
 fn is_of(session: &TeacherSession, said: Option<&ProxiedName>) -> bool {
     let Some(ProxiedName(name)) = said else { return session.proxied_name.is_none() };
+    if name.is_empty() {
+        return false;
+    }
     let login = session.staff.as_ref().map(|member| &member.login);
     [login, session.proxied_name.as_ref()].into_iter().flatten().any(|known| known.eq_ignore_ascii_case(name))
 }

@@ -38,7 +38,8 @@ pub fn check_may_manage(teacher: &Teacher, role: StaffRole) -> Result<(), Proble
 
 /// The name by which somebody logs in, as it is kept; none where that is none.
 pub(super) fn normal_login(text: &str) -> Option<String> {
-    let login = text.trim().to_lowercase();
+    // Other alphabets have letters whose small form is an ASCII letter: they make another login.
+    let login = text.trim().to_ascii_lowercase();
     let is_plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, '-' | '_' | '.' | '@' | '+');
     (!login.is_empty() && login.len() <= LONGEST_LOGIN && login.chars().all(is_plain)).then_some(login)
 }
@@ -187,7 +188,7 @@ mod tests {
     #[test]
     fn a_login_is_the_same_however_it_is_typed() {
         assert_eq!(normal_login(" Hanako.Wada@Example.ac.jp ").as_deref(), Some("hanako.wada@example.ac.jp"));
-        for wrong in ["", "  ", "a b", "和田", "<script>", &"x".repeat(65)] {
+        for wrong in ["", "  ", "a b", "和田", "<script>", "\u{212a}ato", &"x".repeat(65)] {
             assert_eq!(normal_login(wrong), None, "{wrong}");
         }
     }
