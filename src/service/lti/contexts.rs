@@ -26,7 +26,8 @@ pub async fn is_elsewheres(service: &Service, platform_id: &str) -> StoreResult<
     }
 }
 
-/// The course to which a launch leads. The first course of a platform is connected by itself where there is one course only here.
+/// The course to which a launch leads. The first course of a platform is connected by itself where there is one course only here and nobody
+/// uses it yet: whoever comes first may teach anything at the platform, and would be a lecturer of people who are not theirs.
 pub(super) async fn course_of(service: &Service, platform: &Platform, claims: &Claims) -> Result<Service, Problem> {
     let (context, title) = claims.context.as_ref().map_or(("", ""), |context| (&*context.id, context.name()));
     let of_platform = async || -> StoreResult<Vec<PlatformCourse>> {
@@ -34,31 +35,32 @@ pub(super) async fn course_of(service: &Service, platform: &Platform, claims: &C
         Ok(all.into_iter().filter(|known| known.platform_id == platform.id).collect())
     };
     let is_first = of_platform().await?.is_empty() && service.everywhere().len() == 1;
+    let connects = is_first && service.store.is_unused().await?;
     let title: String = title.chars().filter(|c| !c.is_control()).take(LONGEST_TITLE).collect();
-    let by_itself = is_first.then(String::new);
     let noted = PlatformCourse {
         platform_id: platform.id.clone(),
         context: context.to_owned(),
         title: title.clone(),
-        course: by_itself,
+        course: connects.then(String::new),
     };
     if context.len() <= 255 {
         service.store.note_platform_course(&noted).await?;
     }
     let known = of_platform().await?.into_iter().find(|known| known.context == context);
     let connected = known.and_then(|known| service.course_or_this(known.course.as_deref()?));
-    connected.ok_or_else(|| not_connected(platform, if title.is_empty() { context } else { &title }))
+    connected.ok_or_else(|| not_connected(service, platform, if title.is_empty() { context } else { &title }))
 }
 
-fn not_connected(platform: &Platform, title: &str) -> Problem {
+fn not_connected(service: &Service, platform: &Platform, title: &str) -> Problem {
     let title: String = title.chars().take(LONGEST_TITLE).collect();
+    let place = super::address(service).map(|own| format!("{own}/teacher/platforms")).unwrap_or_default();
     refused(
         format!(
-            "The course “{title}” of {} is not connected with a course here. An administrator connects it under Learning platforms.",
+            "The course “{title}” of {} is not connected with a course here. An administrator of this service connects it under Learning platforms: {place}",
             platform.name
         ),
         format!(
-            "{} のコース「{title}」は、このサービスの授業と結び付けられていません。管理者が「学習プラットフォーム」で設定してください。",
+            "{} のコース「{title}」は、このサービスの授業と結び付けられていません。このサービスの管理者が「学習プラットフォーム」で設定してください: {place}",
             platform.name
         ),
     )

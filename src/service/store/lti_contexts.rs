@@ -38,6 +38,16 @@ impl Store {
         Ok(())
     }
 
+    /// Whether nobody uses this course yet: it has no students and no files, and nobody has been let in to teach it. Administrators
+    /// are there before.
+    pub async fn is_unused(&self) -> Result<bool> {
+        const SQL: &str = "SELECT (SELECT count(*) FROM students) + (SELECT count(*) FROM submissions) \
+                           + (SELECT count(*) FROM batches) \
+                           + (SELECT count(*) FROM staff WHERE is_member = 1 AND role <> 'administrator')";
+        let count: i64 = on!(&self.write, db => sqlx::query_scalar(SQL).fetch_one(db).await?);
+        Ok(count == 0)
+    }
+
     /// Says to which course here a platform's course belongs.
     pub async fn connect_platform_course(&self, platform_id: &str, context: &str, course: Option<&str>) -> Result<()> {
         const SQL: &str = "UPDATE lti_contexts SET course = $3 WHERE platform_id = $1 AND context = $2";

@@ -14,6 +14,7 @@ use serde_json::{Value, json};
 
 on_both!(
     nobody_comes_in_from_a_course_that_nobody_connected,
+    a_course_that_is_in_use_is_connected_by_an_administrator_alone,
     a_platforms_course_leads_to_its_course_here,
     why_a_platform_is_not_reached_is_said,
 );
@@ -59,6 +60,23 @@ async fn nobody_comes_in_from_a_course_that_nobody_connected(database: Database)
     assert_eq!(let_in.header("location"), "/a/ggsample06");
     assert_eq!(connect(&bench, "9", "-").await.status, StatusCode::SEE_OTHER);
     assert_eq!(launch_from(&bench, &platform, ("mallory", "Learner"), theirs).await.status, StatusCode::FORBIDDEN);
+    bench.finish().await;
+}
+
+async fn a_course_that_is_in_use_is_connected_by_an_administrator_alone(database: Database) {
+    let (bench, platform) = bench(database, Clock::system()).await;
+    registered(&bench, &platform).await;
+    assert_eq!(bench.hand_in("", right()).await.status, StatusCode::CREATED);
+    // Whoever comes first may teach anything at the platform: the class is not theirs.
+    for role in ["Instructor", "TeachingAssistant", "Learner"] {
+        let refused = launch(&bench, &platform, "mallory", role).await;
+        assert_eq!(refused.status, StatusCode::FORBIDDEN, "{role}");
+        let text = refused.text();
+        assert!(text.contains("course-2") && text.contains("http://ggrade.example/teacher/platforms"), "{text}");
+    }
+    assert!(bench.state.store.staff().await.expect("staff").is_empty());
+    assert_eq!(connect(&bench, "course-2", "").await.status, StatusCode::SEE_OTHER);
+    assert_eq!(launch(&bench, &platform, "teacher", "Instructor").await.header("location"), "/teacher");
     bench.finish().await;
 }
 
