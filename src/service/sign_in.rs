@@ -129,18 +129,19 @@ async fn finish(
     if answer.iss.as_deref().is_some_and(|iss| !provider.has_name(&found, iss)) {
         return Err(provider.distrusted("it comes from another issuer (iss)", "別の発行元からのものです (iss)"));
     }
-    let token = provider.token(&service, &found, &answer.code, &begun).await?;
-    let (issuer, algorithms) = (provider.issuer_of(&found, &token)?, found.algorithms());
+    let tokens = provider.tokens(&service, &found, &answer.code, &begun).await?;
+    let (issuer, algorithms) = (provider.issuer_of(&found, &tokens.id)?, found.algorithms());
     let of =
         Issuer { issuer: &issuer, client_id: &provider.client_id, keys_url: &found.jwks_uri, algorithms: &algorithms };
-    let claims: Map<String, Value> =
-        id_tokens::read(&service.lti, of, &token).await.map_err(|why| provider.distrusted(&why.en, &why.ja))?;
+    let mut claims: Map<String, Value> =
+        id_tokens::read(&service.lti, of, &tokens.id).await.map_err(|why| provider.distrusted(&why.en, &why.ja))?;
     if claims.get("nonce").and_then(Value::as_str) != Some(begun.nonce.as_str()) {
         return Err(provider.distrusted(
             "it is not the answer to this sign-in (nonce)",
             "このログインに対するものではありません (nonce)",
         ));
     }
+    provider.complete(&service, &found, &tokens, &mut claims).await?;
     let (full, short) = provider.names(&claims)?;
     let said = proxied.map(|Extension(said)| said);
     enter(&service, (visitor, said.as_ref()), (&full, &short), begun.homework.as_deref()).await

@@ -1,5 +1,6 @@
 //! Students and staff come in by the word of an OpenID issuer, and by nobody else's.
 
+mod claims;
 pub mod issuer;
 
 use crate::bench::{Bench, Fake, Reply, config};

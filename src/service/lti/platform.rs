@@ -68,6 +68,12 @@ impl Connections {
         parsed(address, response).await
     }
 
+    /// The JSON at an address for who has this token.
+    pub(in crate::service) async fn json_for(&self, address: &str, token: &str) -> Result<serde_json::Value, Failure> {
+        let response = answered(address, self.request(Method::GET, address)?.bearer_auth(token)).await?;
+        parsed(address, response).await
+    }
+
     /// The JSON at an address, which is asked for once in a while.
     pub(in crate::service) async fn kept_json(&self, address: &str) -> Result<serde_json::Value, Failure> {
         let kept = lock(&self.said).get(address).filter(|(since, _)| since.elapsed() < KEPT).cloned();

@@ -52,11 +52,21 @@ pub(super) struct Discovered {
     issuer: String,
     pub authorization_endpoint: String,
     token_endpoint: String,
+    userinfo_endpoint: Option<String>,
     pub jwks_uri: String,
     #[serde(default)]
     token_endpoint_auth_methods_supported: Vec<String>,
     #[serde(default)]
     id_token_signing_alg_values_supported: Vec<String>,
+}
+
+/// What an issuer gives for a code.
+#[derive(Debug)]
+pub(super) struct Tokens {
+    /// Says who somebody is.
+    pub id: String,
+    /// Opens the issuer's userinfo endpoint.
+    access: Option<String>,
 }
 
 impl Discovered {
@@ -99,7 +109,8 @@ impl Provider {
         if !self.is_named(&found.issuer) {
             return Err(failed(format!("{address} is of the issuer {}", found.issuer)));
         }
-        for address in [&found.authorization_endpoint, &found.token_endpoint, &found.jwks_uri] {
+        let addresses = [&found.authorization_endpoint, &found.token_endpoint, &found.jwks_uri];
+        for address in addresses.into_iter().chain(&found.userinfo_endpoint) {
             lti::checked(address).map_err(|why| failed(why.en))?;
         }
         Ok(found)
@@ -134,14 +145,14 @@ impl Provider {
         }
     }
 
-    /// The id token for a code.
-    pub(super) async fn token(
+    /// The tokens for a code.
+    pub(super) async fn tokens(
         &self,
         service: &Service,
         found: &Discovered,
         code: &str,
         begun: &SignIn,
-    ) -> Result<String, Problem> {
+    ) -> Result<Tokens, Problem> {
         let mut form = vec![
             ("grant_type", "authorization_code"),
             ("code", code),
@@ -162,8 +173,44 @@ impl Provider {
             tracing::warn!(failure, provider = self.id, "a code was not taken");
             self.distrusted("its code is not taken", "認可コードが受け付けられませんでした")
         })?;
-        let token = answer.get("id_token").and_then(Value::as_str).map(str::to_owned);
-        token.ok_or_else(|| self.distrusted("there is no id token", "ID トークンがありません"))
+        let token = |name: &str| answer.get(name).and_then(Value::as_str).map(str::to_owned);
+        let id = token("id_token").ok_or_else(|| self.distrusted("there is no id token", "ID トークンがありません"))?;
+        Ok(Tokens { id, access: token("access_token") })
+    }
+
+    /// Adds to the claims of an id token what is needed of somebody and is not there: issuers may keep it for the userinfo endpoint
+    /// (OpenID Connect Core, section 5.4).
+    pub(super) async fn complete(
+        &self,
+        service: &Service,
+        found: &Discovered,
+        tokens: &Tokens,
+        claims: &mut Map<String, Value>,
+    ) -> Result<(), Problem> {
+        let needed = match self.claim.as_str() {
+            "email" => vec!["email", "email_verified"],
+            claim => vec![claim],
+        };
+        let (Some(address), Some(token)) = (&found.userinfo_endpoint, &tokens.access) else { return Ok(()) };
+        if needed.iter().all(|name| claims.contains_key(*name)) {
+            return Ok(());
+        }
+        let said = service.lti.json_for(address, token).await.map_err(|failure| {
+            tracing::warn!(failure, provider = self.id, "a userinfo endpoint");
+            self.distrusted("its userinfo endpoint does not answer", "userinfo エンドポイントから応答がありません")
+        })?;
+        // It may be about anybody whose token this is (section 5.3.2).
+        let subject = claims.get("sub").and_then(Value::as_str);
+        if subject.is_none() || said.get("sub").and_then(Value::as_str) != subject {
+            return Err(self.distrusted("userinfo is of somebody else (sub)", "userinfo が別の利用者のものです (sub)"));
+        }
+        // An address and whether it is verified belong together.
+        if said.get(&self.claim).is_some() {
+            for name in needed {
+                claims.insert(name.to_owned(), said.get(name).cloned().unwrap_or_default());
+            }
+        }
+        Ok(())
     }
 
     pub(super) fn distrusted(&self, en: &str, ja: &str) -> Problem {

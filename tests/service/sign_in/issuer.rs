@@ -20,6 +20,7 @@ pub const SECRET: &str = "a secret: with a colon & more";
 /// Whom it knows.
 const PEOPLE: [&str; 3] = ["s1", "s2", "prof"];
 const KEY: &str = "issuer-key";
+const ACCESS: &str = "an-access-token";
 const CURVE: &str = "issuer-curve";
 
 /// The issuer.
@@ -44,6 +45,8 @@ pub struct Seen {
     pub takes_post: bool,
     /// Whether it signs with an elliptic curve.
     pub signs_by_curve: bool,
+    /// What its userinfo endpoint says; without it, it has none.
+    pub userinfo: Option<Value>,
     /// How often it was asked what it is.
     pub discovered: usize,
 }
@@ -79,6 +82,7 @@ impl Issuer {
             .route("/realm/jwks", get(jwks))
             .route("/realm/authorize", get(authorize))
             .route("/realm/token", post(token))
+            .route("/realm/userinfo", get(userinfo))
             .with_state(issuer.clone());
         tokio::spawn(async move { axum::serve(listener, routes).await });
         issuer
@@ -137,7 +141,7 @@ async fn configuration(State(issuer): State<Issuer>) -> Json<Value> {
     let methods = if seen.takes_post { json!(["client_secret_post"]) } else { json!(["client_secret_basic"]) };
     Json(json!({
         "issuer": seen.alias.as_ref().unwrap_or(&issuer.address), "authorization_endpoint": at("authorize?theme=dark"),
-        "token_endpoint": at("token"), "jwks_uri": at("jwks"), "token_endpoint_auth_methods_supported": methods,
+        "token_endpoint": at("token"), "userinfo_endpoint": seen.userinfo.as_ref().map(|_| at("userinfo")), "jwks_uri": at("jwks"), "token_endpoint_auth_methods_supported": methods,
         "response_types_supported": ["code"], "id_token_signing_alg_values_supported": if seen.signs_by_curve { json!(["RS256", "ES256", "HS256", "none"]) } else { json!(["RS256"]) },
     }))
 }
@@ -153,6 +157,11 @@ async fn authorize(State(issuer): State<Issuer>, Query(asked): Query<HashMap<Str
         "<!DOCTYPE html><title>Who are you?</title><link rel=icon href='data:,'>{}",
         PEOPLE.iter().map(link).collect::<String>()
     ))
+}
+
+async fn userinfo(State(issuer): State<Issuer>, headers: HeaderMap) -> Json<Option<Value>> {
+    assert_eq!(headers[header::AUTHORIZATION], format!("Bearer {ACCESS}").as_str());
+    Json(issuer.seen().userinfo.clone())
 }
 
 async fn jwks(State(issuer): State<Issuer>) -> Json<JwkSet> {
@@ -188,5 +197,5 @@ async fn token(
     if BASE64_URL_SAFE_NO_PAD.encode(Sha256::digest(&form["code_verifier"])) != challenge {
         return refused("invalid_grant");
     }
-    Json(json!({ "access_token": "unused", "token_type": "Bearer", "id_token": token })).into_response()
+    Json(json!({ "access_token": ACCESS, "token_type": "Bearer", "id_token": token })).into_response()
 }
