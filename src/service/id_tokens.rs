@@ -5,6 +5,7 @@ use super::lti::Connections;
 use crate::language::Text;
 use base64::prelude::{BASE64_URL_SAFE_NO_PAD, Engine};
 use jsonwebtoken::errors::ErrorKind;
+use jsonwebtoken::jwk::{AlgorithmParameters, EllipticCurve, Jwk, JwkSet, PublicKeyUse};
 use jsonwebtoken::{Algorithm, DecodingKey, Validation, decode, decode_header};
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
@@ -63,13 +64,20 @@ pub(super) async fn read<C: DeserializeOwned>(
         let names = names.join(", ");
         return Err(Text::new(format!("it is not signed with {names}"), format!("{names} で署名されていません")));
     }
-    let Some(id) = header.kid else { return Err(Text::new("it names no key", "鍵の指定がありません")) };
-    let key = connections.key(of.keys_url, &id).await.map_err(|failure| {
-        tracing::warn!(failure, "the key of an id token");
-        Text::new(
-            format!("who sent it has published no key `{id}`, or cannot be reached"),
-            "発行元の公開鍵を取得できません",
-        )
+    let find = |keys: &JwkSet| match &header.kid {
+        Some(id) => keys.find(id).cloned(),
+        None => only_one(keys, header.alg),
+    };
+    let key = connections.key(of.keys_url, find).await.map_err(|failure| {
+        let id = header.kid.as_deref().unwrap_or_default();
+        tracing::warn!(failure, id, "the key of an id token");
+        let en = match id {
+            "" => {
+                "it names no key, and who sent it has not published exactly one for it, or cannot be reached".to_owned()
+            }
+            id => format!("who sent it has published no key `{id}`, or cannot be reached"),
+        };
+        Text::new(en, "発行元の公開鍵を取得できません")
     })?;
     let key = DecodingKey::from_jwk(&key).map_err(|error| untrusted(&error))?;
     let mut rules = Validation::new(header.alg);
@@ -85,6 +93,30 @@ pub(super) async fn read<C: DeserializeOwned>(
     };
     CommonClaims::deserialize(&claims).map_err(unreadable)?.check(of.client_id)?;
     C::deserialize(claims).map_err(unreadable)
+}
+
+/// The key for a token that names none, where it can be one only (OpenID Connect Core, section 10.1).
+fn only_one(keys: &JwkSet, algorithm: Algorithm) -> Option<Jwk> {
+    let mut fitting = keys.keys.iter().filter(|key| fits(key, algorithm));
+    let first = fitting.next()?;
+    fitting.next().is_none().then(|| first.clone())
+}
+
+/// Whether a key can sign by an algorithm.
+fn fits(key: &Jwk, algorithm: Algorithm) -> bool {
+    use Algorithm::{ES256, ES384, EdDSA, PS256, PS384, PS512, RS256, RS384, RS512};
+    let is_of_kind = match &key.algorithm {
+        AlgorithmParameters::RSA(_) => matches!(algorithm, RS256 | RS384 | RS512 | PS256 | PS384 | PS512),
+        AlgorithmParameters::EllipticCurve(point) => match point.curve {
+            EllipticCurve::P256 => algorithm == ES256,
+            EllipticCurve::P384 => algorithm == ES384,
+            _ => false,
+        },
+        AlgorithmParameters::OctetKeyPair(_) => algorithm == EdDSA,
+        _ => false,
+    };
+    let is_meant = key.common.key_algorithm.is_none_or(|meant| meant == algorithm.into());
+    is_of_kind && is_meant && key.common.public_key_use != Some(PublicKeyUse::Encryption)
 }
 
 impl CommonClaims {

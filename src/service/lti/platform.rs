@@ -115,21 +115,25 @@ impl Connections {
         parsed(address, answered(address, request).await?).await
     }
 
-    /// The public key with this id, of those that are published at an address.
-    pub(in crate::service) async fn key(&self, address: &str, id: &str) -> Result<Jwk, Failure> {
+    /// The public key that is looked for, of those that are published at an address.
+    pub(in crate::service) async fn key(
+        &self,
+        address: &str,
+        find: impl Fn(&JwkSet) -> Option<Jwk>,
+    ) -> Result<Jwk, Failure> {
         let kept = lock(&self.keys).get(address).cloned();
         if let Some((since, keys)) = kept {
-            if let Some(key) = keys.find(id) {
-                return Ok(key.clone());
+            if let Some(key) = find(&keys) {
+                return Ok(key);
             }
             if since.elapsed() < REFETCH {
-                return Err(format!("{address} has no key `{id}`"));
+                return Err(no_key(address));
             }
         }
         let keys: JwkSet = serde_json::from_value(self.json(address).await?).map_err(|e| format!("{address}: {e}"))?;
-        let found = keys.find(id).cloned();
+        let found = find(&keys);
         lock(&self.keys).insert(address.to_owned(), (Instant::now(), Arc::new(keys)));
-        found.ok_or_else(|| format!("{address} has no key `{id}`"))
+        found.ok_or_else(|| no_key(address))
     }
 
     /// Asks a service of a platform for something, or sends it something.
@@ -191,6 +195,10 @@ impl Connections {
 struct PlatformToken {
     access_token: String,
     expires_in: Option<u64>,
+}
+
+fn no_key(address: &str) -> Failure {
+    format!("{address} has no such key")
 }
 
 fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {

@@ -45,6 +45,8 @@ pub struct Seen {
     pub takes_post: bool,
     /// Whether it signs with an elliptic curve.
     pub signs_by_curve: bool,
+    /// Whether it publishes a second key of the same kind.
+    pub has_successor: bool,
     /// What its userinfo endpoint says; without it, it has none.
     pub userinfo: Option<Value>,
     /// How often it was asked what it is.
@@ -111,6 +113,11 @@ impl Issuer {
         jsonwebtoken::encode(&header, claims, key).expect("a token")
     }
 
+    /// The same with no word on which key it is.
+    pub fn unnamed(&self, claims: &Value) -> String {
+        jsonwebtoken::encode(&Header::new(Algorithm::RS256), claims, &self.key).expect("a token")
+    }
+
     /// The modulus of its public key, which somebody may take for a secret.
     pub fn public_modulus(&self) -> String {
         serde_json::to_value(self.jwk()).expect("JSON")["n"].as_str().expect("a modulus").to_owned()
@@ -165,7 +172,11 @@ async fn userinfo(State(issuer): State<Issuer>, headers: HeaderMap) -> Json<Opti
 }
 
 async fn jwks(State(issuer): State<Issuer>) -> Json<JwkSet> {
-    Json(JwkSet { keys: vec![issuer.jwk(), published(&issuer.curve, Algorithm::ES256, CURVE)] })
+    let mut keys = vec![issuer.jwk(), published(&issuer.curve, Algorithm::ES256, CURVE)];
+    if issuer.seen().has_successor {
+        keys.push(published(&issuer.key, Algorithm::RS256, "issuer-key-2"));
+    }
+    Json(JwkSet { keys })
 }
 
 /// Whether a request to the token endpoint is this client's.
