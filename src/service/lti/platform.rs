@@ -21,6 +21,9 @@ const LONGEST: usize = 4 << 20;
 /// How soon keys are fetched again for one that is not among them.
 const REFETCH: Duration = Duration::from_secs(10);
 
+/// How long keys are believed: one that its owner has withdrawn signs nothing after that.
+const BELIEVED: Duration = Duration::from_secs(3600);
+
 /// How long what an issuer says of itself is kept.
 const KEPT: Duration = Duration::from_secs(600);
 
@@ -121,7 +124,7 @@ impl Connections {
         address: &str,
         find: impl Fn(&JwkSet) -> Option<Jwk>,
     ) -> Result<Jwk, Failure> {
-        let kept = lock(&self.keys).get(address).cloned();
+        let kept = lock(&self.keys).get(address).filter(|(since, _)| since.elapsed() < BELIEVED).cloned();
         if let Some((since, keys)) = kept {
             if let Some(key) = find(&keys) {
                 return Ok(key);
@@ -235,4 +238,24 @@ async fn bytes(mut response: Response) -> Option<Vec<u8>> {
 pub(super) async fn parsed<T: serde::de::DeserializeOwned>(address: &str, response: Response) -> Result<T, Failure> {
     let bytes = bytes(response).await.ok_or_else(|| format!("{address}: the answer breaks off, or is too long"))?;
     serde_json::from_slice(&bytes).map_err(|error| format!("{address}: {error}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[tokio::test]
+    async fn keys_are_fetched_again_when_they_are_old() {
+        let keys = json!({ "keys": [{ "kty": "RSA", "kid": "a", "n": "AQAB", "e": "AQAB" }] });
+        let keys: Arc<JwkSet> = Arc::new(serde_json::from_value(keys).expect("keys"));
+        let connections = Connections::default();
+        // Nobody answers there.
+        let address = "http://127.0.0.1:1/jwks";
+        for (age, is_believed) in [(Duration::ZERO, true), (BELIEVED / 2, true), (BELIEVED, false)] {
+            let since = Instant::now().checked_sub(age).expect("a time");
+            lock(&connections.keys).insert(address.to_owned(), (since, Arc::clone(&keys)));
+            let found = connections.key(address, |keys| keys.find("a").cloned()).await;
+            assert_eq!(found.is_ok(), is_believed, "{age:?}: {found:?}");
+        }
+    }
 }
