@@ -5,6 +5,7 @@ use super::super::store::{Platform, StaffRole};
 use super::{refused, roles};
 use crate::service::errors::Problem;
 use crate::service::id_tokens::{self, Issuer};
+use serde::de::DeserializeOwned;
 use serde::{Deserialize, Deserializer};
 use serde_json::{Map, Value};
 
@@ -18,34 +19,49 @@ pub(super) struct Claims {
     pub nonce: Option<String>,
     #[serde(default, deserialize_with = "id_or_none")]
     pub sub: Option<String>,
+    #[serde(default, deserialize_with = "or_none")]
     pub name: Option<String>,
+    #[serde(default, deserialize_with = "or_none")]
     pub given_name: Option<String>,
+    #[serde(default, deserialize_with = "or_none")]
     pub family_name: Option<String>,
-    #[serde(rename = "https://purl.imsglobal.org/spec/lti/claim/message_type")]
+    #[serde(rename = "https://purl.imsglobal.org/spec/lti/claim/message_type", default, deserialize_with = "or_none")]
     pub message_type: Option<String>,
-    #[serde(rename = "https://purl.imsglobal.org/spec/lti/claim/version")]
+    #[serde(rename = "https://purl.imsglobal.org/spec/lti/claim/version", default, deserialize_with = "or_none")]
     version: Option<String>,
-    #[serde(rename = "https://purl.imsglobal.org/spec/lti/claim/deployment_id")]
+    #[serde(rename = "https://purl.imsglobal.org/spec/lti/claim/deployment_id", default, deserialize_with = "or_none")]
     pub deployment_id: Option<String>,
-    #[serde(rename = "https://purl.imsglobal.org/spec/lti/claim/target_link_uri")]
+    #[serde(
+        rename = "https://purl.imsglobal.org/spec/lti/claim/target_link_uri",
+        default,
+        deserialize_with = "or_none"
+    )]
     pub target_link_uri: Option<String>,
-    #[serde(rename = "https://purl.imsglobal.org/spec/lti/claim/resource_link")]
+    #[serde(rename = "https://purl.imsglobal.org/spec/lti/claim/resource_link", default, deserialize_with = "or_none")]
     pub resource_link: Option<ResourceLink>,
-    #[serde(rename = "https://purl.imsglobal.org/spec/lti/claim/roles", default)]
-    roles: Vec<String>,
-    #[serde(rename = "https://purl.imsglobal.org/spec/lti/claim/context")]
+    #[serde(rename = "https://purl.imsglobal.org/spec/lti/claim/roles", default, deserialize_with = "or_none")]
+    roles: Option<Vec<String>>,
+    #[serde(rename = "https://purl.imsglobal.org/spec/lti/claim/context", default, deserialize_with = "or_none")]
     pub context: Option<ContextClaim>,
-    #[serde(rename = "https://purl.imsglobal.org/spec/lti/claim/lis")]
+    #[serde(rename = "https://purl.imsglobal.org/spec/lti/claim/lis", default, deserialize_with = "or_none")]
     pub lis: Option<Lis>,
-    #[serde(rename = "https://purl.imsglobal.org/spec/lti/claim/ext")]
+    #[serde(rename = "https://purl.imsglobal.org/spec/lti/claim/ext", default, deserialize_with = "or_none")]
     pub ext: Option<Ext>,
-    #[serde(rename = "https://purl.imsglobal.org/spec/lti/claim/custom", default)]
+    #[serde(rename = "https://purl.imsglobal.org/spec/lti/claim/custom", default, deserialize_with = "or_none")]
     pub custom: Option<Map<String, Value>>,
-    #[serde(rename = "https://purl.imsglobal.org/spec/lti-ags/claim/endpoint")]
+    #[serde(rename = "https://purl.imsglobal.org/spec/lti-ags/claim/endpoint", default, deserialize_with = "or_none")]
     pub grades: Option<Grades>,
-    #[serde(rename = "https://purl.imsglobal.org/spec/lti-nrps/claim/namesroleservice")]
+    #[serde(
+        rename = "https://purl.imsglobal.org/spec/lti-nrps/claim/namesroleservice",
+        default,
+        deserialize_with = "or_none"
+    )]
     pub names: Option<MembershipsClaim>,
-    #[serde(rename = "https://purl.imsglobal.org/spec/lti-dl/claim/deep_linking_settings")]
+    #[serde(
+        rename = "https://purl.imsglobal.org/spec/lti-dl/claim/deep_linking_settings",
+        default,
+        deserialize_with = "or_none"
+    )]
     pub deep_linking: Option<DeepLinking>,
 }
 
@@ -59,19 +75,23 @@ pub(super) struct ResourceLink {
 pub(super) struct ContextClaim {
     #[serde(deserialize_with = "id")]
     pub id: String,
+    #[serde(default, deserialize_with = "or_none")]
     label: Option<String>,
+    #[serde(default, deserialize_with = "or_none")]
     title: Option<String>,
 }
 
 /// What an information system of the university knows them by.
 #[derive(Debug, Deserialize)]
 pub(super) struct Lis {
+    #[serde(default, deserialize_with = "or_none")]
     pub person_sourcedid: Option<String>,
 }
 
 /// What Moodle says besides.
 #[derive(Debug, Deserialize)]
 pub(super) struct Ext {
+    #[serde(default, deserialize_with = "or_none")]
     pub user_username: Option<String>,
 }
 
@@ -80,12 +100,14 @@ pub(super) struct Ext {
 pub(super) struct Grades {
     #[serde(default)]
     pub scope: Vec<String>,
+    #[serde(default, deserialize_with = "or_none")]
     pub lineitem: Option<String>,
 }
 
 /// Where the people of the course are.
 #[derive(Debug, Deserialize)]
 pub(super) struct MembershipsClaim {
+    #[serde(default, deserialize_with = "or_none")]
     pub context_memberships_url: Option<String>,
 }
 
@@ -93,6 +115,7 @@ pub(super) struct MembershipsClaim {
 #[derive(Clone, Debug, Deserialize)]
 pub(super) struct DeepLinking {
     pub deep_link_return_url: String,
+    #[serde(default, deserialize_with = "or_none")]
     pub data: Option<String>,
     accept_multiple: Option<Value>,
 }
@@ -129,6 +152,12 @@ fn id_or_none<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Strin
     }
 }
 
+/// What a platform need not say, and some say as nothing else does: PHP writes an empty list where it means an empty object. What cannot
+/// be read was not said.
+pub(super) fn or_none<'de, D: Deserializer<'de>, T: DeserializeOwned>(deserializer: D) -> Result<Option<T>, D::Error> {
+    Ok(serde_json::from_value(Value::deserialize(deserializer)?).ok())
+}
+
 impl Claims {
     /// The claims of an id token of this platform.
     pub async fn read(service: &Service, platform: &Platform, token: &str) -> Result<Self, Problem> {
@@ -145,14 +174,18 @@ impl Claims {
         Ok(claims)
     }
 
+    fn roles(&self) -> &[String] {
+        self.roles.as_deref().unwrap_or_default()
+    }
+
     /// What they may do in the course; none for who does not teach it.
     pub fn staff_role(&self) -> Option<StaffRole> {
-        roles::staff_role(&self.roles)
+        roles::staff_role(self.roles())
     }
 
     /// Whether they are a student of the course.
     pub fn is_learner(&self) -> bool {
-        roles::is_learner(&self.roles)
+        roles::is_learner(self.roles())
     }
 
     /// Their name, as far as the platform tells it.

@@ -5,7 +5,7 @@ use super::super::errors::Problem;
 use super::super::identity::normal_number;
 use super::super::roster;
 use super::super::store::{Link, Platform, RosterLine, StudentRecord};
-use super::claims::id;
+use super::claims::{id, or_none};
 use super::next_page::next_page;
 use super::people::{Described, student, teaches_no_more};
 use super::platform::{Connections, Failure, parsed};
@@ -34,10 +34,15 @@ struct PlatformMember {
     #[serde(default)]
     roles: Vec<String>,
     status: Option<String>,
+    #[serde(default, deserialize_with = "or_none")]
     name: Option<String>,
+    #[serde(default, deserialize_with = "or_none")]
     given_name: Option<String>,
+    #[serde(default, deserialize_with = "or_none")]
     family_name: Option<String>,
+    #[serde(default, deserialize_with = "or_none")]
     lis_person_sourcedid: Option<String>,
+    #[serde(default, deserialize_with = "or_none")]
     ext_user_username: Option<String>,
 }
 

@@ -10,6 +10,7 @@ use serde_json::{Value, json};
 
 on_both!(
     only_who_learns_is_a_student,
+    what_a_platform_need_not_say_may_be_anything,
     whoever_the_platform_has_stands_on_a_roster_that_came_later,
     a_role_is_the_one_that_the_platform_says_unless_a_person_gave_it,
 );
@@ -44,6 +45,39 @@ async fn only_who_learns_is_a_student(database: Database) {
         let opened = launch_as(subject, roles).await;
         assert_eq!(opened.header("location"), "/a/ggsample06", "{subject}: {}", opened.text());
     }
+    bench.finish().await;
+}
+
+async fn what_a_platform_need_not_say_may_be_anything(database: Database) {
+    let (bench, platform) = bench(database, Clock::system()).await;
+    registered(&bench, &platform).await;
+    let claim = |name: &str| format!("https://purl.imsglobal.org/spec/lti/claim/{name}");
+    for (number, (name, value)) in [
+        (claim("custom"), json!([])),
+        (claim("custom"), Value::Null),
+        (claim("lis"), json!([])),
+        (claim("lis"), json!({ "person_sourcedid": 14 })),
+        (claim("ext"), json!({ "user_username": ["x"] })),
+        (claim("target_link_uri"), json!(5)),
+        (claim("context"), json!({ "id": "course-2", "title": 5, "label": [] })),
+        ("name".to_owned(), json!({})),
+        ("https://purl.imsglobal.org/spec/lti-ags/claim/endpoint".to_owned(), json!([])),
+        ("https://purl.imsglobal.org/spec/lti-nrps/claim/namesroleservice".to_owned(), json!("")),
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        let begun = begin(&bench, &platform, false).await;
+        let mut claims = platform.claims(&begun.query["nonce"], &format!("s{number}"), "Learner");
+        claims[&name] = value;
+        let opened = answer(&bench, &begun, &platform.sign(&claims)).await;
+        assert_eq!(opened.header("location"), "/a/ggsample06", "{name}: {}", opened.text());
+    }
+    let begun = begin(&bench, &platform, false).await;
+    let mut claims = platform.claims(&begun.query["nonce"], "s99", "Learner");
+    claims[claim("roles")] = Value::Null;
+    let refused = answer(&bench, &begun, &platform.sign(&claims)).await;
+    assert!(refused.text().contains("neither a student nor one of those who teach"), "{}", refused.text());
     bench.finish().await;
 }
 
