@@ -32,7 +32,7 @@ pub use join::{
     check_course_link, course_link, course_secret, join, leave, normal_number, renew_course_secret, with_code,
 };
 pub use login::{LoginForm, login, logout, open_for};
-pub(super) use login::{check_session, forget_session};
+pub(super) use login::{check_session, end_session};
 pub use origin::is_own_page;
 pub(super) use secrets::{equal_secrets, hex};
 pub use secrets::{hash_password, new_id, new_token, token_hash};

@@ -12,8 +12,8 @@ use super::clock::millis;
 use super::errors::Problem;
 use super::id_tokens::{self, Issuer};
 use super::identity::{
-    Jar, Visitor, become_student, forget_session, has_launch, member_of, new_token, normal_number, open_for,
-    set_sign_in, token_hash,
+    Jar, Visitor, become_student, end_session, has_launch, member_of, new_token, normal_number, open_for, set_sign_in,
+    token_hash,
 };
 use super::proxied::ProxiedName;
 use super::store::{Proof, SignIn};
@@ -144,13 +144,13 @@ async fn finish(
     provider.complete(&service, &found, &tokens, &mut claims).await?;
     let (full, short) = provider.names(&claims)?;
     let said = proxied.map(|Extension(said)| said);
-    enter(&service, (visitor, said.as_ref()), (&full, &short), begun.homework.as_deref()).await
+    enter(&service, (&headers, visitor, said.as_ref()), (&full, &short), begun.homework.as_deref()).await
 }
 
 /// Lets somebody in by their name: with the account of this login, or as the student with this number.
 async fn enter(
     service: &Service,
-    (visitor, said): (Visitor, Option<&ProxiedName>),
+    (headers, visitor, said): (&HeaderMap, Visitor, Option<&ProxiedName>),
     (full, short): (&str, &str),
     homework: Option<&str>,
 ) -> Result<Response, Problem> {
@@ -176,6 +176,6 @@ async fn enter(
     let page = state.map_or_else(|| "/".to_owned(), |state| state.page());
     let mut response = Redirect::to(&page).into_response();
     visitor.set_cookie(service, &mut response);
-    forget_session(service, &mut response, Jar::Own);
+    end_session(service, headers, (&mut response, Jar::Own)).await?;
     Ok(response)
 }

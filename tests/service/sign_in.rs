@@ -136,6 +136,13 @@ async fn students_and_staff_come_in_by_the_issuers_word(database: Database) {
     assert_eq!((staff.status, staff.header("location")), (StatusCode::SEE_OTHER, "/teacher"), "{staff:?}");
     let class = get(&bench, "/teacher", &cookies(&staff).join("; ")).await;
     assert_eq!(class.all(".top .who bdi"), ["Prof"]);
+    // Their session is over when a student signs in there: nothing is left that a copy of the cookie opens.
+    let begun = begin(&bench).await;
+    let code = issuer.code(&begun.asked, &issuer.sign(&issuer.claims(&begun.asked, "s1@example.ac.jp")));
+    let theirs = cookies(&staff).join("; ");
+    let both = Begun { cookies: format!("{}; {theirs}", begun.cookies), ..begun };
+    assert_eq!(back(&bench, &both, &code, "").await.header("location"), "/a/ggsample06");
+    assert_eq!(get(&bench, "/teacher", &theirs).await.header("location"), "/teacher/login");
     bench.finish().await;
 }
 

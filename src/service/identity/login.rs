@@ -122,13 +122,25 @@ pub async fn logout(service: &Service, teacher: &Teacher, csrf: &str) -> Result<
     let mut response = Redirect::to("/").into_response();
     // The session may be one of a frame.
     for jar in [Jar::Own, Jar::Embedded] {
-        forget_session(service, &mut response, jar);
+        remove_cookie(service, &mut response, jar);
     }
     Ok(response)
 }
 
-/// Takes a teacher's session out of a browser in which a student is known from now on: whoever sat there before has left.
-pub(in crate::service) fn forget_session(service: &Service, response: &mut Response, jar: Jar) {
+/// Ends a teacher's session in a browser in which a student is known from now on: whoever sat there before has left.
+pub(in crate::service) async fn end_session(
+    service: &Service,
+    headers: &HeaderMap,
+    (response, jar): (&mut Response, Jar),
+) -> Result<(), Problem> {
+    if let Some(session) = read(service, headers, TEACHER_COOKIE) {
+        service.accounts().close_session(Some(&token_hash(&session))).await?;
+    }
+    remove_cookie(service, response, jar);
+    Ok(())
+}
+
+fn remove_cookie(service: &Service, response: &mut Response, jar: Jar) {
     if let Some(cookie) = set(service, TEACHER_COOKIE, "", 0, jar) {
         response.headers_mut().append(header::SET_COOKIE, cookie);
     }

@@ -1,6 +1,6 @@
 //! A launch: the platform sends the browser back with its word on who that is.
 
-use super::super::identity::{Jar, Visitor, become_student, forget_session, has_launch, open_for, token_hash};
+use super::super::identity::{Jar, Visitor, become_student, end_session, has_launch, open_for, token_hash};
 use super::super::pages::{PageFrame, launch_lost, shown_choice};
 use super::super::store::{Link, Platform, Proof};
 use super::super::{Service, State};
@@ -166,7 +166,7 @@ async fn open(
     // Whoever teaches there as well looks at the homework as a student does.
     let known = service.store.platform_person(&platform.id, &who.subject).await?;
     if known.is_none_or(|person| person.staff_id.is_none()) {
-        forget_session(service, &mut response, jar);
+        end_session(service, headers, (&mut response, jar)).await?;
     }
     Ok(response)
 }
