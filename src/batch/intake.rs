@@ -19,6 +19,7 @@ mod tests;
 mod tree;
 mod wording;
 
+pub use key::portable;
 pub use limits::{Budget, IntakeLimits};
 #[cfg(feature = "service")]
 pub(crate) use moodle::is_blind;

@@ -47,10 +47,21 @@ fn plain(who: &Who) -> String {
     }
 }
 
-fn is_safe(name: &str) -> bool {
+/// A name of letters, digits, `-`, `_` and `.` as every system takes it for that of a file or a folder: Windows takes no device and
+/// drops a dot at the end, and two dots are the folder above.
+pub fn portable(name: &str) -> String {
+    let start = if is_device(name) { "_" } else { "" };
+    let end = if name.ends_with('.') { "_" } else { "" };
+    format!("{start}{name}{end}")
+}
+
+fn is_device(name: &str) -> bool {
     let stem = name.split('.').next().unwrap_or_default().to_ascii_lowercase();
     let is_port = |device| stem.strip_prefix(device).is_some_and(|n: &str| n.len() == 1);
-    let is_device = DEVICES.contains(&stem.as_str()) || is_port("com") || is_port("lpt");
+    DEVICES.contains(&stem.as_str()) || is_port("com") || is_port("lpt")
+}
+
+fn is_safe(name: &str) -> bool {
     // Those with a hash end as a hash does; a name must not pass for one.
     let is_like_hashed = name.rsplit('-').next().is_some_and(|end| {
         end.split('.').next().is_some_and(|end| end.len() == HASH_DIGITS && end.bytes().all(|b| b.is_ascii_hexdigit()))
@@ -60,7 +71,7 @@ fn is_safe(name: &str) -> bool {
         && name.bytes().all(|byte| byte.is_ascii_alphanumeric() || b"-_.".contains(&byte))
         && !name.starts_with(['.', '-'])
         && !name.ends_with('.')
-        && !is_device
+        && !is_device(name)
         && !is_like_hashed
 }
 
@@ -96,6 +107,22 @@ mod tests {
         let taro = Participant { name: "山田 太郎".into(), number: Some(1234) };
         let moodle = Who { name: "山田 太郎".into(), moodle: Some(taro), place: "a.zip/x".into() };
         assert_eq!(keys(&[who("s2012345", "c/s2012345"), moodle]), ["s2012345", "1234"]);
+    }
+
+    #[test]
+    fn every_system_takes_a_portable_name() {
+        for (name, portable_name) in [
+            ("S1", "S1"),
+            ("T1.", "T1._"),
+            (".", "._"),
+            ("..", ".._"),
+            ("CON", "_CON"),
+            ("nul.x", "_nul.x"),
+            ("COM1", "_COM1"),
+            ("COMA2", "COMA2"),
+        ] {
+            assert_eq!(portable(name), portable_name);
+        }
     }
 
     #[test]

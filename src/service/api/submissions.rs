@@ -183,7 +183,10 @@ async fn identity(
     teacher.check(&state.assignment.id)?;
     teacher.check_role(StaffRole::Lecturer)?;
     let number = normal_number(number).ok_or_else(|| {
-        Problem::unprocessable("student is no student number.", "student が学籍番号の形式ではありません。")
+        Problem::unprocessable(
+            "student is no student number: it has letters, digits, `-`, `_` or `.`, and not dots alone.",
+            "student が学籍番号の形式ではありません。英数字、`-`、`_`、`.` で指定してください（`.` だけは不可）。",
+        )
     })?;
     let student = state.store.student(&number, state.clock.now()).await?;
     Ok(Identity::OnBehalf(student.ok_or_else(|| not_on_roster(&number))?))

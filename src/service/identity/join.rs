@@ -42,8 +42,10 @@ pub async fn check_course_link(service: &Service, secret: &str) -> Result<(), Pr
 pub async fn student_of(service: &Service, number: &str) -> Result<StudentRecord, Problem> {
     let number = normal_number(number).ok_or_else(|| {
         Problem::unprocessable(
-            format!("A student number has 1 to {LONGEST_NUMBER} letters, digits, `-`, `_` or `.`."),
-            format!("学籍番号は {LONGEST_NUMBER} 文字以内の英数字、`-`、`_`、`.` で入力してください。"),
+            format!("A student number has 1 to {LONGEST_NUMBER} letters, digits, `-`, `_` or `.`, and not dots alone."),
+            format!(
+                "学籍番号は {LONGEST_NUMBER} 文字以内の英数字、`-`、`_`、`.` で入力してください。`.` だけの番号は使えません。"
+            ),
         )
     })?;
     let student = service.store.student(&number, service.clock.now()).await?;
@@ -109,7 +111,8 @@ pub fn leave() -> Visitor {
     Visitor::replaced()
 }
 
-/// A student number as it is kept: without spaces around it, full-width letters as the usual ones, in capitals.
+/// A student number as it is kept: without spaces around it, full-width letters as the usual ones, in capitals. Dots alone are none: in
+/// an address or a path they are the place itself or the one above.
 pub fn normal_number(text: &str) -> Option<String> {
     let narrow = |c: char| match c {
         '\u{ff01}'..='\u{ff5e}' => char::from_u32(u32::from(c) - 0xfee0).unwrap_or(c),
@@ -117,7 +120,8 @@ pub fn normal_number(text: &str) -> Option<String> {
     };
     let number: String = text.trim().chars().map(narrow).map(|c| c.to_ascii_uppercase()).collect();
     let is_plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, '-' | '_' | '.');
-    (!number.is_empty() && number.len() <= LONGEST_NUMBER && number.chars().all(is_plain)).then_some(number)
+    let is_number = number.len() <= LONGEST_NUMBER && number.chars().all(is_plain) && number.chars().any(|c| c != '.');
+    is_number.then_some(number)
 }
 
 #[cfg(test)]
@@ -128,7 +132,7 @@ mod tests {
     fn a_number_is_the_same_however_it_is_typed() {
         assert_eq!(normal_number(" s１２３４Ａ\n").as_deref(), Some("S1234A"));
         assert_eq!(normal_number("60-256_001").as_deref(), Some("60-256_001"));
-        for wrong in ["", "  ", "a b", "山田", "<script>", &"1".repeat(33)] {
+        for wrong in ["", "  ", "a b", "山田", "<script>", ".", "..", "．．", &"1".repeat(33)] {
             assert_eq!(normal_number(wrong), None, "{wrong}");
         }
     }

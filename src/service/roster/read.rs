@@ -286,6 +286,7 @@ mod tests {
         let said = wrong("s1234567,A\nB only\n");
         assert!(said.en.starts_with("Line 2 ") && said.ja.contains("2 行目"), "{said:?}");
         assert!(wrong("number,name\n\ns1,A\n,B\n,C\n").en.starts_with("Lines 4, 5 "));
+        assert!(wrong("number,name\n..,A\n").en.starts_with("Line 2 "));
         assert!(wrong("s1,A\ns2,B\nｓ１,C\n").en.starts_with("Lines 1 and 3 "));
         assert!(wrong("number,name\ns1,\"Wada\ns2,Ito\ns3,Abe\n").en.starts_with("A quotation mark in line 2 "));
         assert!(wrong("PK\u{3}\u{4}xl/workbook.xml").en.contains("CSV UTF-8"));

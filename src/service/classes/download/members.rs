@@ -3,7 +3,7 @@
 use super::participants::participants;
 use super::{DownloadSelection, Pick};
 use crate::batch::class::{Class, FileLocation, Outcome, Participant, Refused, Student};
-use crate::batch::intake::{HandInContent, StudentWork};
+use crate::batch::intake::{HandInContent, StudentWork, portable};
 use crate::batch::roll::roll;
 use crate::fault::Fault;
 use crate::hand_in::HandIn;
@@ -70,7 +70,8 @@ pub(super) async fn members(
     }
 }
 
-/// Somebody of the class as files name them; who has no number is told apart by a part of what is known of them.
+/// Somebody of the class as files name them, and as files can be named; who has no number is told apart by a part of what is known of
+/// them.
 pub(super) fn student(
     number: String,
     name: String,
@@ -80,12 +81,13 @@ pub(super) fn student(
 ) -> Student {
     let known = if number.is_empty() { format!("browser-{}", key.chars().take(8).collect::<String>()) } else { number };
     let name = if name.is_empty() { known.clone() } else { name };
-    let mut key = known.clone();
+    let plain = portable(&known);
+    let mut key = plain.clone();
     for time in 2.. {
         if keys.insert(key.to_ascii_lowercase()) {
             break;
         }
-        key = format!("{known}.{time}");
+        key = format!("{plain}.{time}");
     }
     Student { key, name, moodle, email: None }
 }
@@ -176,6 +178,16 @@ pub(super) fn outcome(stored: StoredSubmission) -> Outcome {
 mod tests {
     use super::*;
     use crate::hand_in::HandedInFile;
+
+    #[test]
+    fn whatever_number_somebody_has_is_a_file_of_theirs_alone() {
+        let mut keys = HashSet::new();
+        let mut key = |number: &str| student(number.to_owned(), String::new(), None, "k", &mut keys);
+        for (number, expected) in [("S1", "S1"), ("..", ".._"), ("CON", "_CON"), ("T1.", "T1._"), ("T1._", "T1._.2")] {
+            let student = key(number);
+            assert_eq!((student.key.as_str(), student.name.as_str()), (expected, number));
+        }
+    }
 
     #[test]
     fn each_file_has_its_own_path_whatever_its_folder_is_called() {
