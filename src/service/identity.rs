@@ -26,8 +26,9 @@ pub use codes::{code_needed, personal_code, personal_link};
 pub use cookies::{Jar, STUDENT_COOKIE, TEACHER_COOKIE};
 pub(super) use cookies::{has_launch, has_trial, set_launch, set_sign_in, set_trial};
 pub(super) use cookies::{named as cookie, of_visitor as visitor_cookie};
+pub(super) use csrf::{check as check_form, token as form_token};
 pub use extractors::{LecturerPage, TeacherPage};
-pub(super) use join::become_student;
+pub(super) use join::{become_student, check_code};
 pub use join::{
     check_course_link, course_link, course_secret, join, leave, normal_number, renew_course_secret, with_code,
 };

@@ -1,7 +1,7 @@
 //! LTI 1.3 and its services (Advantage): a learning platform vouches for who comes, and grades go home.
 //!
 //! [`login`] begins a launch and [`launch`] takes what the platform vouches for ([`claims`]); [`people`] says who that is
-//! here, [`roles`] what they may do, and [`contexts`] in which course; [`known`] gathers what is known of each platform. [`deep_linking`] lets a lecturer choose a homework, [`registration`] makes a platform and this service known to each
+//! here, [`number`] asks them where that is not sure, [`roles`] what they may do, and [`contexts`] in which course; [`known`] gathers what is known of each platform. [`deep_linking`] lets a lecturer choose a homework, [`registration`] makes a platform and this service known to each
 //! other, [`scores`] sends grades, [`memberships`] fetches the roster, [`keys`] are those with which this service signs,
 //! [`platform`] asks a platform.
 
@@ -14,6 +14,7 @@ mod launch;
 mod login;
 pub mod memberships;
 mod next_page;
+pub mod number;
 mod people;
 mod platform;
 pub mod registration;
@@ -33,6 +34,7 @@ pub fn launches() -> Router<Service> {
     Router::new()
         .route("/lti/login", get(login::by_link).post(login::by_form))
         .route("/lti/launch", post(launch::launch))
+        .route("/lti/number", post(number::answered))
 }
 
 /// What platforms themselves ask for.

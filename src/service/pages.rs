@@ -28,7 +28,7 @@ mod terms;
 pub use assets::warm;
 pub(super) use datetime::TimeElement;
 pub use frame::PageFrame;
-pub(super) use lti::{launch_lost, shown_choice};
+pub(super) use lti::{launch_lost, shown_choice, shown_number};
 pub use preview::broken_folder;
 pub use problem::problem;
 

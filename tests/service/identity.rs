@@ -49,7 +49,7 @@ async fn try_login(
     visitor: Visitor,
     Form(form): Form<LoginForm>,
 ) -> Result<Response, Problem> {
-    login(&service, &client, &visitor, &form).await
+    login(&service, &client, &visitor, None, &form).await
 }
 
 async fn try_logout(Shared(service): Shared<Service>, teacher: Teacher, csrf: String) -> Result<Response, Problem> {

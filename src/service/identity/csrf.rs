@@ -7,8 +7,8 @@ use axum::http::StatusCode;
 use hmac::{Hmac, KeyInit, Mac};
 use sha2::Sha256;
 
-/// The token of the forms of one cookie.
-pub(super) fn token(service: &Service, cookie: &str) -> String {
+/// The token of the forms of one cookie, or of one text that goes to a browser and back.
+pub(in crate::service) fn token(service: &Service, cookie: &str) -> String {
     // A key of any length is taken: there is nothing that could fail.
     let Ok(mut mac) = Hmac::<Sha256>::new_from_slice(&service.key) else { return String::new() };
     mac.update(b"csrf ");
@@ -17,7 +17,7 @@ pub(super) fn token(service: &Service, cookie: &str) -> String {
 }
 
 /// Lets a form pass that has its cookie's token.
-pub(super) fn check(service: &Service, cookie: &str, given: &str) -> Result<(), Problem> {
+pub(in crate::service) fn check(service: &Service, cookie: &str, given: &str) -> Result<(), Problem> {
     let expected = token(service, cookie);
     if !expected.is_empty() && equal_secrets(&expected, given) {
         return Ok(());

@@ -55,10 +55,16 @@ pub async fn student_of(service: &Service, number: &str) -> Result<StudentRecord
 /// Lets a program pass that brings a student's personal code.
 pub async fn with_code(service: &Service, number: &str, code: &str) -> Result<StudentRecord, Problem> {
     let student = student_of(service, number).await?;
+    check_code(service, &student, code)?;
+    Ok(student)
+}
+
+/// Lets whoever brings a student's personal code pass.
+pub(in crate::service) fn check_code(service: &Service, student: &StudentRecord, code: &str) -> Result<(), Problem> {
     match code.trim() {
-        "" => Err(code_needed(&student)),
-        code if is_code_of(service, &student, code) => Ok(student),
-        _ => Err(wrong_code(&student)),
+        "" => Err(code_needed(student)),
+        code if is_code_of(service, student, code) => Ok(()),
+        _ => Err(wrong_code(student)),
     }
 }
 

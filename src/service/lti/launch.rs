@@ -2,11 +2,11 @@
 
 use super::super::identity::{Jar, Visitor, become_student, end_session, has_launch, open_for, token_hash};
 use super::super::pages::{PageFrame, launch_lost, shown_choice};
-use super::super::store::{Link, Platform, Proof};
+use super::super::store::{Link, Platform, Proof, StudentRecord};
 use super::super::{Service, State};
 use super::claims::{Claims, DEEP_LINKING, RESOURCE_LINK};
-use super::people::{Described, staff, student, teaches_no_more};
-use super::{contexts, deep_linking, refused};
+use super::people::{Described, PlatformStudent, staff, student, teaches_no_more};
+use super::{contexts, deep_linking, number, refused};
 use crate::service::errors::Problem;
 use crate::service::proxied::ProxiedName;
 use axum::extract::State as Shared;
@@ -67,7 +67,10 @@ pub async fn launch(
     check_deployment(&service, &platform, claims.deployment_id.as_deref().unwrap_or_default()).await?;
     let course = contexts::course_of(&service, &platform, &claims).await?;
     match claims.message_type.as_deref() {
-        Some(RESOURCE_LINK) => open(&course, &platform, &claims, (&headers, proxied.map(|Extension(said)| said))).await,
+        Some(RESOURCE_LINK) => {
+            let said = proxied.map(|Extension(said)| said);
+            open(&course, frame, &platform, &claims, (&headers, said)).await
+        }
         Some(DEEP_LINKING) => {
             let choice = deep_linking::offer(&course, &platform, &claims, &frame).await?;
             shown_choice(frame, choice)
@@ -121,11 +124,11 @@ fn described(claims: &Claims) -> Result<Described, Problem> {
 /// Opens the homework for a student, or its class for who teaches.
 async fn open(
     service: &Service,
+    frame: PageFrame,
     platform: &Platform,
     claims: &Claims,
     (headers, said): (&HeaderMap, Option<ProxiedName>),
 ) -> Result<Response, Problem> {
-    let jar = Jar::of(headers);
     let link =
         claims.resource_link.as_ref().map(|link| link.id.clone()).filter(|id| !id.is_empty()).ok_or_else(|| {
             refused("The launch is of no link (resource_link).", "起動元のリンク (resource_link) が示されていません。")
@@ -144,7 +147,7 @@ async fn open(
         let member = staff(service, platform, &who, role).await?;
         let page =
             state.map_or_else(|| format!("{}/teacher", service.root()), |state| format!("{}/teacher", state.base()));
-        return open_for(service, member, &page, (jar, said.as_ref())).await;
+        return open_for(service, member, &page, (Jar::of(headers), said.as_ref())).await;
     }
     let Some(state) = state else {
         return Err(refused(
@@ -152,10 +155,24 @@ async fn open(
             "このリンクの課題がまだ選択されていません。担当教員に連絡してください。",
         ));
     };
-    let student = student(service, platform, &who).await?;
-    service.store.expect_score(&platform.id, &link, &who.subject).await?;
-    let context = claims.context.as_ref().map(|context| context.id.as_str()).unwrap_or_default();
-    service.store.note_platform_member(&platform.id, context, &who.subject).await?;
+    match student(service, platform, &who).await? {
+        PlatformStudent::Theirs(student) => {
+            enter(service, (platform, &link, &who.subject), (&state, student), headers).await
+        }
+        PlatformStudent::Held(student) => number::asked(service, frame, (platform, &link, &who), (&state, &student)),
+    }
+}
+
+/// Lets a student in who opened a link of a platform as its person with this id.
+pub(super) async fn enter(
+    service: &Service,
+    (platform, link, subject): (&Platform, &str, &str),
+    (state, student): (&State, StudentRecord),
+    headers: &HeaderMap,
+) -> Result<Response, Problem> {
+    let jar = Jar::of(headers);
+    service.store.note_member_of_link(&platform.id, link, subject).await?;
+    service.store.expect_score(&platform.id, link, subject).await?;
     // Another homework in another tab goes on in the same browser; whoever else sat here is somebody else.
     let here = Visitor::of(service, headers).await?;
     let is_theirs = here.identity.student_id() == Some(student.id.as_str());
@@ -164,7 +181,7 @@ async fn open(
     let mut response = Redirect::to(&state.page()).into_response();
     visitor.set_cookie_in(service, &mut response, jar);
     // Whoever teaches there as well looks at the homework as a student does.
-    let known = service.store.platform_person(&platform.id, &who.subject).await?;
+    let known = service.store.platform_person(&platform.id, subject).await?;
     if known.is_none_or(|person| person.staff_id.is_none()) {
         end_session(service, headers, (&mut response, jar)).await?;
     }

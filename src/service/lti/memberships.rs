@@ -7,7 +7,7 @@ use super::super::roster;
 use super::super::store::{Link, Platform, RosterLine, StudentRecord};
 use super::claims::{id, or_none};
 use super::next_page::next_page;
-use super::people::{Described, student, teaches_no_more};
+use super::people::{Described, PlatformStudent, student, teaches_no_more};
 use super::platform::{Connections, Failure, parsed};
 use super::{refused, roles};
 use reqwest::Method;
@@ -95,7 +95,9 @@ pub async fn import(service: &Service, platform: &Platform, link: &Link) -> Resu
         before.into_iter().map(|student| (student.number.clone(), line(student))).collect();
     for who in &students {
         // Whoever has a number is matched by it; the others get one that is made of the platform's id.
-        let student = student(service, platform, who).await?;
+        // Who holds the number of one of them by another way stands on the roster, and is asked for the code when they come.
+        let (PlatformStudent::Theirs(student) | PlatformStudent::Held(student)) =
+            student(service, platform, who).await?;
         service.store.note_platform_member(&platform.id, &link.context, &who.subject).await?;
         let is_own = who.numbers.iter().filter_map(|number| normal_number(number)).any(|n| n == student.number);
         // A platform may share no names: it takes none away by that.

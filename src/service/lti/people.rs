@@ -2,7 +2,7 @@
 
 use super::super::Service;
 use super::super::errors::Problem;
-use super::super::identity::{new_id, normal_number, token_hash, vouched_for};
+use super::super::identity::{check_code, new_id, normal_number, token_hash, vouched_for};
 use super::super::store::{Platform, PlatformPerson, RosterLine, StaffMember, StaffRole, StudentRecord};
 
 /// What a platform says of one person.
@@ -16,24 +16,37 @@ pub(super) struct Described {
     pub numbers: Vec<String>,
 }
 
+/// The student that somebody of a platform is.
+pub(super) enum PlatformStudent {
+    /// From now on, as far as the platform goes.
+    Theirs(StudentRecord),
+    /// By the platform's word alone: somebody holds the number who did not come from there.
+    Held(StudentRecord),
+}
+
+use PlatformStudent::{Held, Theirs};
+
 /// The student that somebody is: the one they were before, else the one with their number. Of a number that is somebody else's of
 /// the same platform they get none, but one that is made of the platform's id. Where there is a roster, they stand on it from now on:
 /// the platform knows its courses.
-pub(super) async fn student(service: &Service, platform: &Platform, who: &Described) -> Result<StudentRecord, Problem> {
+pub(super) async fn student(
+    service: &Service,
+    platform: &Platform,
+    who: &Described,
+) -> Result<PlatformStudent, Problem> {
     let store = &service.store;
     let known = store.platform_person(&platform.id, &who.subject).await?;
     if let Some(id) = known.and_then(|person| person.student_id)
         && let Some(student) = store.student_by_id(&id).await?
     {
         if student.is_on_roster() {
-            return Ok(student);
+            return Ok(Theirs(student));
         }
         // A roster that was imported since then may lack them.
-        return Ok(store.enrol(&line(&student.number, who), service.clock.now()).await?);
+        return Ok(Theirs(store.enrol(&line(&student.number, who), service.clock.now()).await?));
     }
-    let own = format!("LTI-{}", &token_hash(&format!("{} {}", platform.id, who.subject))[..10]).to_uppercase();
     let mut numbers: Vec<String> = who.numbers.iter().filter_map(|number| normal_number(number)).collect();
-    numbers.push(own);
+    numbers.push(own_number(platform, who));
     // Whoever stands on the roster goes before who has only a likely number.
     let mut chosen = None;
     for number in &numbers {
@@ -48,12 +61,53 @@ pub(super) async fn student(service: &Service, platform: &Platform, who: &Descri
         chosen = None;
         numbers.drain(..numbers.len() - 1);
     }
-    let student = match chosen {
-        Some(student) => student,
+    let found = match chosen {
+        Some(student) if store.is_held(&student.id).await? => Held(student),
+        Some(student) => Theirs(student),
         None => enrolled(service, platform, who, &numbers).await?,
     };
+    if let Theirs(student) = &found {
+        note(service, platform, who, student).await?;
+    }
+    Ok(found)
+}
+
+/// The number that is made of the platform's id of somebody.
+fn own_number(platform: &Platform, who: &Described) -> String {
+    format!("LTI-{}", &token_hash(&format!("{} {}", platform.id, who.subject))[..10]).to_uppercase()
+}
+
+async fn note(service: &Service, platform: &Platform, who: &Described, student: &StudentRecord) -> Result<(), Problem> {
     let person = PlatformPerson { student_id: Some(student.id.clone()), staff_id: None };
-    store.note_person(&platform.id, &who.subject, &person).await?;
+    Ok(service.store.note_person(&platform.id, &who.subject, &person).await?)
+}
+
+/// The student whose number somebody has and whose personal code they bring: theirs from now on.
+pub(super) async fn proved(
+    service: &Service,
+    platform: &Platform,
+    who: &Described,
+    code: &str,
+) -> Result<StudentRecord, Problem> {
+    let number = who.numbers.first().map(String::as_str).unwrap_or_default();
+    let student = service.store.student_by_number(number).await?.ok_or_else(Problem::not_found)?;
+    check_code(service, &student, code)?;
+    if service.store.is_taken(&platform.id, &who.subject, &student.id).await? {
+        return with_own_number(service, platform, who).await;
+    }
+    let student = service.store.enrol(&line(number, who), service.clock.now()).await?;
+    note(service, platform, who, &student).await?;
+    Ok(student)
+}
+
+/// Somebody as the student with a number that is made of the platform's id.
+pub(super) async fn with_own_number(
+    service: &Service,
+    platform: &Platform,
+    who: &Described,
+) -> Result<StudentRecord, Problem> {
+    let student = service.store.enrol(&line(&own_number(platform, who), who), service.clock.now()).await?;
+    note(service, platform, who, &student).await?;
     Ok(student)
 }
 
@@ -67,16 +121,24 @@ async fn enrolled(
     platform: &Platform,
     who: &Described,
     numbers: &[String],
-) -> Result<StudentRecord, Problem> {
+) -> Result<PlatformStudent, Problem> {
     let store = &service.store;
+    let own = own_number(platform, who);
     for number in numbers {
+        if let Some(student) = store.student_by_number(number).await?
+            && *number != own
+            && !store.is_taken(&platform.id, &who.subject, &student.id).await?
+            && store.is_held(&student.id).await?
+        {
+            return Ok(Held(student));
+        }
         let student = store.enrol(&line(number, who), service.clock.now()).await?;
         if store.is_taken(&platform.id, &who.subject, &student.id).await? {
             continue;
         }
         // A browser that was only the first to give the number has it no more.
         store.renew_code(&student.id).await?;
-        return Ok(store.student_by_id(&student.id).await?.unwrap_or(student));
+        return Ok(Theirs(store.student_by_id(&student.id).await?.unwrap_or(student)));
     }
     Err(Problem::internal(&"no student number is free"))
 }

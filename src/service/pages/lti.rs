@@ -7,6 +7,7 @@ use crate::service::courses::at;
 use crate::service::errors::Problem;
 use crate::service::lti::deep_linking::HomeworkChoice;
 use crate::service::lti::known;
+use crate::service::lti::number::HeldNumber;
 use crate::service::lti::registration::{self, RegistrationQuery};
 use askama::Template;
 use axum::extract::{Path, Query, Request, State as Shared};
@@ -26,6 +27,17 @@ struct ChoicePage {
 struct LostPage {
     frame: PageFrame,
     again: String,
+}
+
+#[derive(Template)]
+#[template(path = "service/pages/templates/lti_number.html")]
+struct NumberPage {
+    frame: PageFrame,
+    number: String,
+    action: String,
+    claim: String,
+    csrf: String,
+    problem: Option<String>,
 }
 
 #[derive(Template)]
@@ -55,6 +67,12 @@ pub(in crate::service) fn launch_lost(frame: PageFrame, begun_by: &str) -> Resul
     let mut page = shown(LostPage { frame, again }.render())?;
     *page.status_mut() = StatusCode::FORBIDDEN;
     Ok(page)
+}
+
+/// The page that asks somebody who comes from a platform for the code of the number that it says is theirs.
+pub(in crate::service) fn shown_number(frame: PageFrame, held: HeldNumber) -> Result<Response, Problem> {
+    let HeldNumber { number, action, claim, csrf, problem } = held;
+    shown(NumberPage { frame, number, action, claim, csrf, problem }.render())
 }
 
 /// `GET /lti/register/{secret}`: the platform opens it for its administrator.

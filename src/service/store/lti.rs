@@ -216,6 +216,16 @@ impl Store {
         Ok(count > 0)
     }
 
+    /// Whether somebody has proved to be a student, or handed in as them: a browser by a personal code or by the word of others, or a
+    /// file that came in no archive of a teacher's.
+    pub async fn is_held(&self, student_id: &str) -> Result<bool> {
+        const SQL: &str = "SELECT (SELECT count(*) FROM owners o JOIN students s ON s.id = o.student_id \
+                           WHERE s.id = $1 AND o.code_generation = s.code_generation AND o.proof <> 'first') \
+                           + (SELECT count(*) FROM submissions WHERE student_id = $1 AND batch_id IS NULL)";
+        let count: i64 = on!(&self.write, db => sqlx::query_scalar(SQL).bind(student_id).fetch_one(db).await?);
+        Ok(count > 0)
+    }
+
     /// Says who somebody of a platform is; what is none stays as it was.
     pub async fn note_person(&self, platform_id: &str, subject: &str, person: &PlatformPerson) -> Result<()> {
         const SQL: &str = "INSERT INTO lti_people (platform_id, subject, student_id, staff_id) VALUES ($1, $2, $3, $4) \

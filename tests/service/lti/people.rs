@@ -1,17 +1,22 @@
 //! Who somebody of a platform is here, as the platform and the course change.
 
 use super::launch::{answer, begin, bench, cookie, hand_in, launch, registered, with_cookie};
+use crate::bench::Reply;
 use crate::cluster::Database;
 use crate::roster::{file, form};
 use crate::{on_both, right};
-use axum::http::StatusCode;
+use axum::body::Body;
+use axum::http::{Request, StatusCode, header};
 use ggrade::service::clock::Clock;
+use ggrade::service::identity;
 use serde_json::{Value, json};
+use std::time::Duration;
 
 on_both!(
     only_who_learns_is_a_student,
     what_a_platform_need_not_say_may_be_anything,
     whoever_the_platform_has_stands_on_a_roster_that_came_later,
+    a_number_that_somebody_holds_is_given_for_its_code_alone,
     a_role_is_the_one_that_the_platform_says_unless_a_person_gave_it,
 );
 
@@ -97,6 +102,59 @@ async fn whoever_the_platform_has_stands_on_a_roster_that_came_later(database: D
     let roster = bench.state.store.roster().await.expect("a roster");
     let numbers: Vec<&str> = roster.iter().map(|student| student.number.as_str()).collect();
     assert_eq!(numbers, ["S1", "S2", "S9"]);
+    bench.finish().await;
+}
+
+async fn a_number_that_somebody_holds_is_given_for_its_code_alone(database: Database) {
+    let now = i64::try_from(jsonwebtoken::get_current_timestamp()).expect("a time") * 1000;
+    let clock = Clock::fixed(now);
+    let (bench, platform) = bench(database, clock.clone()).await;
+    registered(&bench, &platform).await;
+    launch(&bench, &platform, "teacher", "Instructor").await;
+    file(&bench, "/teacher/roster", "roster", "r.csv", b"number,name\nS1,Ito\nS2,Abe\nS3,Oka\n").await;
+    let secret = identity::course_secret(&bench.state).await.expect("a link");
+    let mut codes = Vec::new();
+    for number in ["S1", "S2"] {
+        let student = bench.state.store.student_by_number(number).await.expect("a store").expect("a student");
+        let code = identity::personal_code(&bench.state, &student);
+        let query = format!("?student={number}&course={secret}&code={code}");
+        assert_eq!(bench.hand_in(&query, right()).await.status, StatusCode::CREATED, "{number}");
+        codes.push(code);
+    }
+    // Nothing of it shows to who says the number at the platform, where people may write it themselves.
+    let send = async |page: &Reply, wish: &str, site: &str| {
+        let text = page.text();
+        let field = |name: &str| text.split(&format!("name=\"{name}\" value=\"")).nth(1)?.split('"').next();
+        let (claim, csrf) = (field("claim").expect("a claim"), field("csrf").expect("a token"));
+        let request = Request::post("/lti/number").header(header::CONTENT_TYPE, "application/x-www-form-urlencoded");
+        let request = request.header("sec-fetch-site", site).header(header::ACCEPT_LANGUAGE, "en");
+        let request = request.header(header::ACCEPT, "text/html");
+        let body = Body::from(format!("claim={claim}&csrf={csrf}&{wish}"));
+        bench.send(request.body(body).expect("a request")).await
+    };
+    let number = async |reply: &Reply| {
+        assert_eq!(reply.header("location"), "/a/ggsample06", "{}", reply.text());
+        with_cookie(&bench, "/a/ggsample06", &cookie(reply, "ggrade")).await.all(".top .who bdi").remove(0)
+    };
+    let asked = launch(&bench, &platform, "s1", "Learner").await;
+    assert_eq!((asked.status, asked.all("h1")), (StatusCode::OK, vec!["Is this number yours?".to_owned()]));
+    let wrong = send(&asked, &format!("wish=code&code={}", codes[1]), "same-origin").await;
+    assert_eq!((wrong.status, wrong.all("h1")), (StatusCode::FORBIDDEN, vec!["Is this number yours?".to_owned()]));
+    assert!(wrong.all("[role=alert]")[0].contains("not the personal code of S1"), "{}", wrong.text());
+    let right_code = format!("wish=code&code={}", codes[0]);
+    assert_eq!(send(&wrong, &right_code, "cross-site").await.status, StatusCode::FORBIDDEN);
+    assert_eq!(number(&send(&wrong, &right_code, "same-origin").await).await, "S1");
+    // It is asked once.
+    assert_eq!(number(&launch(&bench, &platform, "s1", "Learner").await).await, "S1");
+    // Whoever has no code goes on under a number that is nobody else's.
+    let asked = launch(&bench, &platform, "s2", "Learner").await;
+    let own = number(&send(&asked, "wish=own", "same-origin").await).await;
+    assert!(own.starts_with("LTI-"), "{own}");
+    assert_eq!(number(&launch(&bench, &platform, "s2", "Learner").await).await, own);
+    assert_eq!(number(&launch(&bench, &platform, "s3", "Learner").await).await, "S3", "nobody holds it");
+    // A page that was left open is good for nothing.
+    clock.advance(Duration::from_secs(601));
+    assert!(send(&asked, "wish=own", "same-origin").await.text().contains("older than ten minutes"));
     bench.finish().await;
 }
 

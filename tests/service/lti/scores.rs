@@ -121,6 +121,14 @@ async fn a_platform_that_hangs_holds_up_no_other(database: Database) {
     let others = [Platform::start().await, Platform::start().await, Platform::start().await];
     for (index, platform) in std::iter::once(&hanging).chain(&others).enumerate() {
         registered(&bench, platform).await;
+        // Only the first platform's course is connected by itself.
+        if index > 0 {
+            assert_eq!(launch(&bench, platform, "early", "Learner").await.status, StatusCode::FORBIDDEN);
+            let known = bench.state.store.platforms().await.expect("platforms");
+            let id = known.iter().find(|known| known.issuer == platform.issuer).map(|known| &known.id).expect("it");
+            let wish = format!("wish=connect&platform={id}&context=course-2&course=");
+            assert_eq!(form(&bench, "/teacher/platforms", &wish).await.status, StatusCode::SEE_OTHER);
+        }
         let student = cookie(&launch(&bench, platform, &format!("s{index}"), "Learner").await, "ggrade");
         assert_eq!(hand_in(&bench, &student, right()).await.status, StatusCode::CREATED);
     }
