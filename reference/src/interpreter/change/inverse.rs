@@ -1,8 +1,8 @@
 //! The slip that a change of a wrong text undoes.
 
-use super::tree::{ExpressionPlace, operands};
+use super::tree::{ExpressionPlace, assigned, operands, paths};
 use super::{Change, Operator, bare, is_literal, written};
-use crate::interpreter::syntax::{Binary, Expression, ExpressionKind, Statement, StatementKind, Unary};
+use crate::interpreter::syntax::{Binary, Expression, ExpressionKind, Name, Statement, StatementKind, Unary};
 
 /// What the student did, where this change of `root` makes it right.
 pub(super) fn mistake_of(root: &Expression, change: &Change) -> Operator {
@@ -47,7 +47,9 @@ pub(super) fn of_statement(statement: &Statement) -> Operator {
         ExpressionKind::Assign(Some(Binary::Multiply | Binary::Divide), ..) => Operator::Times,
         ExpressionKind::Assign(Some(Binary::Add | Binary::Subtract), ..) => Operator::Shifted,
         // What it writes over is what counts.
-        ExpressionKind::Assign(None, to, from) if !reads(from, to) => Operator::OtherValue,
+        ExpressionKind::Assign(None, _, from) if !assigned(expression).is_some_and(|name| reads(from, name)) => {
+            Operator::OtherValue
+        }
         ExpressionKind::Assign(None, _, from) => match &bare(from).kind {
             ExpressionKind::Call(..) => of_call(bare(from)),
             ExpressionKind::Unary(Unary::Minus, _) => Operator::Sign,
@@ -57,13 +59,11 @@ pub(super) fn of_statement(statement: &Statement) -> Operator {
     }
 }
 
-/// Whether the variable of another expression is a part of one.
-fn reads(own: &Expression, of: &Expression) -> bool {
-    let (text, variable) = (written(own), written(of));
-    let words = |text: &'_ str| -> Vec<String> {
-        text.split(|c: char| !(c.is_ascii_alphanumeric() || c == '_')).map(str::to_owned).collect()
-    };
-    words(&variable).first().is_some_and(|name| words(&text).contains(name))
+/// Whether a variable is a part of an expression.
+fn reads(own: &Expression, name: &Name) -> bool {
+    paths(own)
+        .iter()
+        .any(|path| matches!(&ExpressionPlace::of(own, path).own.kind, ExpressionKind::Name(own) if own == name))
 }
 
 /// What a function does that has no place there.

@@ -188,7 +188,7 @@ fn of_statement(
     let known = names.len();
     match &mut statement.kind {
         StatementKind::Expression(expression) => {
-            let name = assigned(expression);
+            let name = assigned(expression).cloned();
             (walk.expression)(expression, MetAs::Value(name.as_ref()), names);
         }
         StatementKind::Declaration(declaration) => {
@@ -255,14 +255,14 @@ fn named(variable: &DeclaredVariable, kind: &BaseType, names: &mut Vec<(Name, Na
     }
 }
 
-/// The variable that an assignment gives a value to.
-fn assigned(expression: &Expression) -> Option<Name> {
+/// The variable that an assignment gives a value to, or a part of which it gives one.
+pub(super) fn assigned(expression: &Expression) -> Option<&Name> {
     let ExpressionKind::Assign(_, to, _) = &expression.kind else { return None };
     let mut to = &**to;
     loop {
         match &to.kind {
             ExpressionKind::Member(of, _) | ExpressionKind::Index(of, _) => to = of,
-            ExpressionKind::Name(name) => return Some(Name::clone(name)),
+            ExpressionKind::Name(name) => return Some(name),
             _ => return None,
         }
     }

@@ -1,5 +1,6 @@
 //! Repairs of what a function is made of: its parameters, and the statements in its lists of them.
 
+use super::super::tree::assigned;
 use super::super::{Operator, written};
 use super::{ProgramRepair, Where, marked};
 use crate::interpreter::syntax::{
@@ -182,15 +183,7 @@ impl UsedNames {
 
     fn meet(&mut self, statement: &Statement) {
         match &statement.kind {
-            StatementKind::Expression(Expression { kind: ExpressionKind::Assign(_, to, _), .. }) => {
-                let mut to = &**to;
-                while let ExpressionKind::Member(of, _) | ExpressionKind::Index(of, _) = &to.kind {
-                    to = of;
-                }
-                if let ExpressionKind::Name(name) = &to.kind {
-                    self.assigned.insert(Name::clone(name));
-                }
-            }
+            StatementKind::Expression(own) => self.assigned.extend(assigned(own).cloned()),
             StatementKind::Declaration(own) => {
                 for variable in &own.variables {
                     *self.declared.entry(Name::clone(&variable.name)).or_default() += 1;

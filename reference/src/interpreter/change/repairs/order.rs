@@ -1,5 +1,6 @@
 //! Two statements that stand one after the other, in the other order.
 
+use super::super::tree::assigned;
 use super::super::{Operator, written};
 use super::{ProgramRepair, Where, marked};
 use crate::interpreter::syntax::{Declaration, Expression, ExpressionKind, Name, Statement, StatementKind};
@@ -51,16 +52,10 @@ pub(super) fn exchanged(place: &Where, number: usize, is_marked: bool) -> Option
 /// The variable that a statement gives a value, and the value.
 fn given(statement: &Statement) -> Option<(&Name, &Expression)> {
     match &statement.kind {
-        StatementKind::Expression(Expression { kind: ExpressionKind::Assign(_, to, from), .. }) => {
-            let mut to = &**to;
-            loop {
-                match &to.kind {
-                    ExpressionKind::Member(of, _) | ExpressionKind::Index(of, _) => to = of,
-                    ExpressionKind::Name(name) => return Some((name, from)),
-                    _ => return None,
-                }
-            }
-        }
+        StatementKind::Expression(own) => match &own.kind {
+            ExpressionKind::Assign(_, _, from) => Some((assigned(own)?, from)),
+            _ => None,
+        },
         StatementKind::Declaration(Declaration { variables, .. }) => match &variables[..] {
             [only] => Some((&only.name, only.value.as_ref()?)),
             _ => None,
