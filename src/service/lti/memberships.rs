@@ -98,7 +98,7 @@ pub async fn import(service: &Service, platform: &Platform, link: &Link) -> Resu
         // Who holds the number of one of them by another way stands on the roster, and is asked for the code when they come.
         let (PlatformStudent::Theirs(student) | PlatformStudent::Held(student)) =
             student(service, platform, who).await?;
-        service.store.note_platform_member(&platform.id, &link.context, &who.subject).await?;
+        service.store.note_member_of_link(&platform.id, &link.link_id, &who.subject).await?;
         let is_own = who.numbers.iter().filter_map(|number| normal_number(number)).any(|n| n == student.number);
         // A platform may share no names: it takes none away by that.
         let is_named = !who.name.trim().is_empty() && (is_own || student.name.is_empty());

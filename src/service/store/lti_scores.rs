@@ -80,20 +80,6 @@ impl Store {
         Ok(())
     }
 
-    /// Keeps who is in a platform's course, where they have come in as somebody.
-    pub async fn note_platform_member(&self, platform_id: &str, context: &str, subject: &str) -> Result<()> {
-        const SQL: &str = "INSERT INTO lti_members (platform_id, context, subject) \
-                           SELECT platform_id, CAST($2 AS TEXT), subject FROM lti_people \
-                           WHERE platform_id = $1 AND subject = $3 \
-                           ON CONFLICT (platform_id, context, subject) DO NOTHING";
-        if !context.is_empty() {
-            on!(&self.write, db => {
-                sqlx::query(SQL).bind(platform_id).bind(context).bind(subject).execute(db).await?;
-            });
-        }
-        Ok(())
-    }
-
     /// Keeps that somebody who came in is in the course of a link.
     pub async fn note_member_of_link(&self, platform_id: &str, link_id: &str, subject: &str) -> Result<()> {
         const SQL: &str = "INSERT INTO lti_members (platform_id, context, subject) \
