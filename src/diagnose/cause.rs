@@ -18,7 +18,6 @@ use reference::assignment::RubricLine;
 use reference::derived::{definition, is_derived};
 use reference::equation::{DISCARDED, Reads};
 use reference::fit::{Alternatives, FeatureDefect, FeatureExplanation, TermJudgement, judge_terms};
-use reference::interpreter::Operator;
 use reference::mistake::{FoundMistake, Mistake};
 
 pub(super) use search::{cause, is_there, leaves_little};
@@ -149,7 +148,7 @@ impl Cause {
     /// leave them their points.
     pub(super) fn unless_absent(self, evidence: &Evidence<'_>, shape: bool) -> Self {
         let assignment = evidence.assignment;
-        let is_in_a_body = self.repairs().any(|repaired| repaired.operator.is_some_and(Operator::is_of_a_body));
+        let is_in_a_body = self.repairs().any(Repaired::is_of_a_body);
         if !matches!(self, Self::Known { .. } | Self::Parts(_) | Self::Repaired(_)) || is_in_a_body {
             return self;
         }

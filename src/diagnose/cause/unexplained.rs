@@ -14,7 +14,6 @@ use reference::fit::{
     Alternatives, FeatureDefect, FeatureExplanation, Fit, MOST_MISTAKES, TermJudgement, explain_derived, explain_parts,
     judge_factor, judge_features, programs_of,
 };
-use reference::interpreter::Operator;
 use reference::mistake::FoundMistake;
 use reference::probes::ProbeSet;
 
@@ -108,7 +107,7 @@ pub(super) fn unexplained(
     // and what writes over it is right.
     let is_one = |cause: &Cause| matches!(cause, Cause::Parts(own) if own.parts.len() == 1);
     let is_lost = || findings.iter().any(|finding| finding.flaw == Flaw::Overwrites);
-    let is_in_a_body = matches!(&repairs[..], [only] if only.operator.is_some_and(Operator::is_of_a_body));
+    let is_in_a_body = matches!(&repairs[..], [only] if only.is_of_a_body());
     let lacking = lacking(assignment, &findings).filter(|_| !is_in_a_body);
     if let Some(cause) = lacking.filter(|cause| repairs.is_empty() || is_lost() || !is_one(cause)) {
         return unless_gated(evidence, cause);

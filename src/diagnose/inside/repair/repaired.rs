@@ -57,6 +57,11 @@ impl Repaired {
             if from == same && other.strip_prefix(to).is_some_and(is_operator))
     }
 
+    /// Whether it concerns how a function is written, and not what stands in its expressions.
+    pub fn is_of_a_body(&self) -> bool {
+        self.operator.is_some_and(Operator::is_of_a_body)
+    }
+
     /// Whether another whole number belongs there, or a variable in its place.
     pub fn is_of_an_element(&self) -> bool {
         let [written, right] = &self.texts;
