@@ -4,7 +4,7 @@
 //! be made to overflow its stack or eat all memory. So neither happens in this process: a worker does both, and a
 //! worker that crashes or takes too long costs nothing but itself. `docs/security.md` tells what is promised.
 //!
-//! Here, in the parent: [`pool`] grades, [`roster`] keeps workers ready, [`child`] is one of them, [`channel`] its
+//! Here, in the parent: [`pool`] grades a [`task`], [`roster`] keeps workers ready, [`child`] is one of them, [`channel`] its
 //! pipes, [`library`] what it needs to know of an assignment, [`ending`] what its end means, [`memory`] whether this
 //! machine gives it enough.
 //! On both sides: [`protocol`] is what they say to each other, as [`message`]s; [`check`] says whether an archive has a
@@ -30,14 +30,16 @@ mod protocol;
 mod roster;
 mod schedule;
 mod syscalls;
+mod task;
 mod unpacked;
 pub mod worker;
 
 pub use check::CheckedFolder;
 pub use child::MOST_ASSIGNMENTS;
-pub use pool::{GradedSubmission, GradingTask, Pool};
+pub use pool::Pool;
 pub use preflight::IntrusionAttempt;
 pub use protection::{Layer, LayerState, Policy, Protection, Reach};
+pub use task::{GradedSubmission, GradingTask};
 
 use crate::expected;
 use crate::render::AdapterKind;

@@ -1,5 +1,7 @@
 //! The parent's side of one worker: start, ask, wait no longer than the deadline, end.
 
+mod not_started;
+
 use super::channel::{Channel, LostAnswer};
 use super::ending::Ending;
 use super::library::{PictureLibrary, Turn};
@@ -7,14 +9,15 @@ use super::message::{Longest, MessageBody, encode};
 use super::protection::{Policy, Protection};
 use super::protocol::{Answered, Demand, GradingRequest, Hello, Load, Reply};
 use super::schedule::Allowance;
-use super::{Settings, environment, memory};
+use super::{Settings, environment};
 use crate::expected::Pack;
 use crate::fault::Fault;
 use crate::hand_in::HandIn;
-use crate::language::Text;
 use crate::report::Environment;
 use nix::sys::signal::{Signal, killpg};
 use nix::unistd::Pid;
+pub(super) use not_started::NotStarted;
+use not_started::{cannot_read, cannot_start, not_closed};
 use reference::Assignment;
 use std::os::unix::process::CommandExt;
 use std::path::PathBuf;
@@ -53,24 +56,6 @@ pub(super) struct Worker {
     pub gradings: u32,
     /// The digests of the assignments that it has read.
     assignments: Vec<String>,
-}
-
-/// Why there is no worker.
-#[derive(Debug)]
-pub(super) struct NotStarted {
-    pub fault: Fault,
-    /// Whether another try may end otherwise.
-    pub transient: bool,
-}
-
-impl NotStarted {
-    /// The same with too little memory as the reason, where that is it.
-    fn explained(self, settings: &Settings) -> Self {
-        match memory::shortage(settings.adapter, memory::Phase::Start, &self.fault.message) {
-            Some(fault) => Self { fault, transient: false },
-            None => self,
-        }
-    }
 }
 
 impl Worker {
@@ -198,23 +183,33 @@ impl Worker {
         self.process.id()
     }
 
-    /// Has one submission graded. The deadline is that of what was handed in; once that has run, [`JUDGING`] is.
+    /// Has one submission graded. The deadline is that of what was handed in; once that has run, [`JUDGING`] is. `overtime` is called
+    /// once where what was handed in has had a processor for long and does not end.
     pub fn grade(
         &mut self,
         request: &GradingRequest,
         hand_in: &HandIn,
         frames_bytes: usize,
         [deadline, judging]: [Duration; 2],
+        overtime: &mut dyn FnMut(),
     ) -> Result<(Reply, MessageBody), Ending> {
         self.gradings += 1;
         let message = encode(&Demand::Grade(request.clone()), &hand_in.concatenated())
             .map_err(|error| Ending::Garbled(error.to_string()))?;
         let longest = Longest { head: REPORT_BYTES, body: frames_bytes };
-        let (id, mut is_drawn) = (self.id(), false);
+        let (id, mut is_drawn, mut is_long) = (self.id(), false, false);
         let mut allowance = Allowance::new(id, deadline);
-        let end = allowance.end();
+        let first = allowance.next_look();
         let mut further = |reply: Option<&Reply>| match reply {
-            None => allowance.later(),
+            None if is_drawn || is_long => allowance.later(),
+            None => {
+                let next = allowance.next_look();
+                is_long = next == allowance.end();
+                if is_long {
+                    overtime();
+                }
+                Some(next)
+            }
             Some(Reply { outcome: Answered::Drawn, .. }) if !is_drawn => {
                 is_drawn = true;
                 allowance = Allowance::new(id, judging);
@@ -222,7 +217,7 @@ impl Worker {
             }
             Some(_) => None,
         };
-        let ending = match self.channel.exchange::<Reply>(&message, longest, end, &mut further) {
+        let ending = match self.channel.exchange::<Reply>(&message, longest, first, &mut further) {
             Ok((reply, body)) if reply.id == request.id => return Ok((reply, body)),
             Ok(_) => Ending::Garbled("the answer to another question".into()),
             Err(LostAnswer::Garbled(detail)) => Ending::Garbled(detail),
@@ -264,37 +259,4 @@ pub(super) fn end_group(id: u32) {
     if let Ok(id) = i32::try_from(id) {
         let _ = killpg(Pid::from_raw(id), Signal::SIGKILL);
     }
-}
-
-fn cannot_start(detail: &str) -> Fault {
-    Fault::new(Text::new(
-        format!("the grading process cannot be started: {detail}"),
-        format!("採点プロセスを起動できません: {detail}"),
-    ))
-    .remedy(Text::new("`ggrade doctor` checks the machine.", "`ggrade doctor` でこのマシンを調べられます。"))
-}
-
-fn cannot_read(assignment: &Assignment, detail: &str) -> Fault {
-    let id = &assignment.id;
-    Fault::new(Text::new(
-        format!("the grading process cannot read the assignment {id}: {detail}"),
-        format!("採点プロセスが課題 {id} を読み込めません: {detail}"),
-    ))
-    .remedy(Text::new(
-        "`ggrade assignment check FOLDER` checks the folder, `ggrade doctor` the machine.",
-        "`ggrade assignment check フォルダ` で課題のフォルダを、`ggrade doctor` でこのマシンを調べられます。",
-    ))
-}
-
-fn not_closed(protection: &Protection) -> Fault {
-    let notice = protection.notice().unwrap_or_default();
-    Fault::new(Text::new(
-        format!("the sandbox is not closed: {}", notice.en),
-        format!("サンドボックスが不完全です: {}", notice.ja),
-    ))
-    .remedy(Text::new(
-        "`ggrade doctor` shows each layer. --sandbox best-effort grades all the same: only for files that you trust.",
-        "`ggrade doctor` で各層の状態を確かめられます。--sandbox best-effort を付けると採点できますが、\
-         信頼できるファイルだけにしてください。",
-    ))
 }

@@ -7,13 +7,12 @@ use super::ending::{Blame, Ending};
 use super::protection::Protection;
 use super::protocol::{Answered, GradingRequest, Reply};
 use super::roster::{Roster, WorkerKind, WorkerPermit};
+use super::task::{GradedSubmission, GradingTask};
 use super::{JUDGING, Policy, Settings, memory};
 use crate::diagnostic::{Diagnostic, DiagnosticStage};
 use crate::fault::Fault;
-use crate::grade::Order;
-use crate::hand_in::HandIn;
 use crate::language::Text;
-use crate::report::{Environment, Picture, Report, Verdict};
+use crate::report::{Environment, Report, Verdict};
 use reference::Assignment;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -25,28 +24,6 @@ const ATTEMPTS: u32 = 3;
 /// The share of the deadline that must be left for a crash to be confirmed by a second worker. A file that crashes as
 /// late as that has used the time of a grading anyway.
 const LEFT_TO_CONFIRM: f64 = 0.4;
-
-/// What is to be graded.
-#[derive(Clone, Copy, Debug)]
-pub struct GradingTask<'a> {
-    /// The homework.
-    pub assignment: &'a Arc<Assignment>,
-    /// Its files.
-    pub hand_in: &'a HandIn,
-    /// How it is to be graded.
-    pub order: Order,
-    /// Whether the frames are wanted, not only their comparison.
-    pub wants_frames: bool,
-}
-
-/// A graded submission.
-#[derive(Clone, Debug)]
-pub struct GradedSubmission {
-    /// The report.
-    pub report: Report,
-    /// The student's frames, where they were wanted and drawn. Gradings that draw alike share them.
-    pub frames: Arc<[Picture]>,
-}
 
 /// Workers. Any number of threads may grade at once, for any assignments; each takes a worker of its own, and those for
 /// whom there is none wait.
@@ -119,8 +96,17 @@ impl Pool {
 
     /// Grades one submission. A fault is ours; whatever the file does to a worker is a verdict.
     pub fn grade(&self, submission: GradingTask<'_>) -> Result<GradedSubmission, Fault> {
+        self.grade_or_let_pass(submission, &mut || {})
+    }
+
+    /// The same. `passed` is called where the file takes long, so that another one has got its place: one more is graded at once.
+    pub fn grade_or_let_pass(
+        &self,
+        submission: GradingTask<'_>,
+        passed: &mut dyn FnMut(),
+    ) -> Result<GradedSubmission, Fault> {
         let place = self.roster.place();
-        let mut grading = Grading { pool: self, place, submission, blamed: None };
+        let mut grading = Grading { pool: self, place, submission, passed, blamed: None };
         let mut wanted = WorkerKind::Any;
         let mut attempts = 0;
         loop {
@@ -145,19 +131,12 @@ impl Pool {
     }
 }
 
-impl GradingTask<'_> {
-    /// Bytes of all frames of a grading.
-    fn frames_bytes(&self) -> usize {
-        let scene = &self.assignment.scene;
-        scene.all_poses().len() * scene.width as usize * scene.height as usize * 4
-    }
-}
-
 /// One submission on its way through one or more workers.
 struct Grading<'a> {
     pool: &'a Pool,
     place: WorkerPermit<'a>,
     submission: GradingTask<'a>,
+    passed: &'a mut dyn FnMut(),
     /// An ending that a fresh worker has to confirm, and when the attempt began that ended so.
     blamed: Option<(Ending, Instant)>,
 }
@@ -195,7 +174,14 @@ impl Grading<'_> {
         // Confirming a crash takes what it left of the deadline: no file has twice the time.
         let spent = self.blamed.as_ref().map_or(Duration::ZERO, |(_, began)| began.elapsed());
         let deadline = self.deadline().saturating_sub(spent);
-        let answered = worker.grade(&request, hand_in, frames_bytes, [deadline, JUDGING * assignment.time]);
+        let Self { place, passed, .. } = self;
+        let mut overtime = || {
+            if place.let_pass() {
+                passed();
+            }
+        };
+        let times = [deadline, JUDGING * assignment.time];
+        let answered = worker.grade(&request, hand_in, frames_bytes, times, &mut overtime);
         let environment = worker.environment.clone();
         let ending = match answered {
             Ok((reply, body)) => return self.answered(worker, was_fresh, reply, &body),

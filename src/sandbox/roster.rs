@@ -9,6 +9,7 @@ use super::protection::Protection;
 use crate::fault::Fault;
 use crate::report::Environment;
 use keeper::{keep, no_thread};
+use std::cell::Cell;
 use std::collections::HashSet;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
@@ -50,6 +51,8 @@ struct RosterState {
     /// How many workers are in callers' hands, and how many callers hold a place.
     lent: usize,
     places_taken: usize,
+    /// Workers in the hands of callers who have given their places to others.
+    overtime: usize,
     /// How many are to be started; the processes of those on the way, and the threads that wait for them.
     ordered: usize,
     starting: Vec<u32>,
@@ -69,6 +72,8 @@ struct RosterState {
 #[derive(Debug)]
 pub(super) struct WorkerPermit<'a> {
     shared: &'a SharedRoster,
+    /// Whether it goes without a place: another caller has that.
+    overtime: Cell<bool>,
 }
 
 impl Roster {
@@ -103,7 +108,7 @@ impl Roster {
             state = self.shared.wait(state);
         }
         state.places_taken += 1;
-        WorkerPermit { shared: &self.shared }
+        WorkerPermit { shared: &self.shared, overtime: Cell::new(false) }
     }
 
     /// What holds the workers, and the processes of those that wait for work.
@@ -160,6 +165,21 @@ impl WorkerPermit<'_> {
         }
     }
 
+    /// Gives the place to another caller and keeps the worker: its file takes long. Only as long as a spare can do the other's work;
+    /// whether it can.
+    pub fn let_pass(&self) -> bool {
+        let mut state = self.shared.lock();
+        if self.overtime.get() || state.overtime >= self.shared.settings.spares {
+            return false;
+        }
+        state.overtime += 1;
+        state.places_taken -= 1;
+        self.overtime.set(true);
+        drop(state);
+        self.shared.changed.notify_all();
+        true
+    }
+
     /// Makes a worker that has graded cleanly ready for the next caller.
     pub fn give_back(&self, worker: Worker) {
         let mut state = self.shared.lock();
@@ -187,7 +207,10 @@ impl WorkerPermit<'_> {
 
 impl Drop for WorkerPermit<'_> {
     fn drop(&mut self) {
-        self.shared.lock().places_taken -= 1;
+        let mut state = self.shared.lock();
+        let held = if self.overtime.get() { &mut state.overtime } else { &mut state.places_taken };
+        *held -= 1;
+        drop(state);
         self.shared.changed.notify_all();
     }
 }

@@ -21,6 +21,9 @@ fn cpu_time(process: u32) -> Option<Duration> {
     Some(TICK * (user + system))
 }
 
+/// The share of the deadline after which a file takes long: several times what an honest one needs.
+const LONG_SHARE: f64 = 1.0 / 16.0;
+
 /// The time that a worker on a busy machine is waited for, in deadlines.
 const PATIENCE: u32 = 3;
 
@@ -46,6 +49,13 @@ impl Allowance {
     /// When it ends on an idle machine.
     pub fn end(&self) -> Instant {
         self.begin + self.deadline
+    }
+
+    /// When to look whether it takes long: as soon as it can have had a processor for [`LONG_SHARE`] of the deadline. The end where
+    /// it has.
+    pub fn next_look(&self) -> Instant {
+        let left = self.deadline.mul_f64(LONG_SHARE).saturating_sub(self.used().unwrap_or(self.deadline));
+        if left.is_zero() { self.end() } else { (Instant::now() + left.max(PAUSE)).min(self.end()) }
     }
 
     /// Until when to wait for a worker that has not answered by the end: until it has had as much of a processor. That others keep

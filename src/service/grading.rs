@@ -35,6 +35,15 @@ pub trait Judge: Send + Sync + std::fmt::Debug {
     /// Grades one file; may take until the deadline.
     fn grade(&self, submission: GradingTask<'_>) -> Result<GradedSubmission, Fault>;
 
+    /// The same. `passed` is called where the file takes so long that another one is graded beside it in the meantime.
+    fn grade_or_let_pass(
+        &self,
+        submission: GradingTask<'_>,
+        _passed: &mut dyn FnMut(),
+    ) -> Result<GradedSubmission, Fault> {
+        self.grade(submission)
+    }
+
     /// Whether an archive has the folder of a homework; what to tell its teacher, where it has none. May take a minute.
     fn check(&self, _archive: &[u8]) -> Result<Result<CheckedFolder, Text>, Fault> {
         Err(Fault::new(Text::verbatim("what grades here checks no folders")))
@@ -44,6 +53,14 @@ pub trait Judge: Send + Sync + std::fmt::Debug {
 impl Judge for Pool {
     fn grade(&self, submission: GradingTask<'_>) -> Result<GradedSubmission, Fault> {
         Self::grade(self, submission)
+    }
+
+    fn grade_or_let_pass(
+        &self,
+        submission: GradingTask<'_>,
+        passed: &mut dyn FnMut(),
+    ) -> Result<GradedSubmission, Fault> {
+        Self::grade_or_let_pass(self, submission, passed)
     }
 
     fn check(&self, archive: &[u8]) -> Result<Result<CheckedFolder, Text>, Fault> {

@@ -4,8 +4,10 @@ use super::workers::{
     self, Impostor, alone, children, children_of, descriptors, grade, honest, sample, settings, timeless,
 };
 use super::{signal, until};
+use ggrade::grade::Order;
+use ggrade::hand_in::HandIn;
 use ggrade::report::Verdict;
-use ggrade::sandbox::{Pool, Settings};
+use ggrade::sandbox::{GradingTask, Pool, Settings};
 use std::process::Command;
 
 #[test]
@@ -143,4 +145,28 @@ fn neither_processes_nor_descriptors_are_left_behind() {
     assert!(children().iter().all(|&(_, state)| state != 'Z'), "{:?}", children());
     drop(pool);
     assert_eq!(children(), []);
+}
+
+#[test]
+fn a_file_that_takes_long_gives_its_place_to_another() {
+    let _alone = alone();
+    let pool = &Pool::start(settings(), 1).unwrap();
+    pool.warm().unwrap();
+    let (tell, told) = std::sync::mpsc::channel();
+    std::thread::scope(|scope| {
+        let long = scope.spawn(move || {
+            let hand_in =
+                HandIn::of_one("ggsample06.vert", sample("hostile/stopped/fuzz/arrays-without-end-compared.vert"));
+            let order = Order { seed: 7, ..Order::default() };
+            let task = GradingTask { assignment: pool.assignment(), hand_in: &hand_in, order, wants_frames: false };
+            pool.grade_or_let_pass(task, &mut || tell.send(()).unwrap())
+        });
+        told.recv().expect("it lets another pass");
+        // There is one place, and the spare worker grades in it.
+        assert_eq!(grade(pool, &honest()).unwrap().report.verdict, Verdict::Correct);
+        assert_eq!(long.join().unwrap().unwrap().report.verdict, Verdict::Stopped);
+    });
+    // The place is there once, and the spare again.
+    assert_eq!(grade(pool, &honest()).unwrap().report.verdict, Verdict::Correct);
+    until(|| (pool.idle_processes().len() == 2).then_some(()));
 }

@@ -21,9 +21,11 @@ on_both!(
     a_flood_from_one_address_waits_behind_a_file_from_another,
     what_was_stopped_twice_is_known_until_a_teacher_asks_again,
     files_that_take_the_whole_deadline_never_hold_all_graders,
+    a_file_that_takes_long_gives_its_grader_to_another,
 );
 
-/// A judge that notes what it grades. It stops what says `endless`. What says `wait` waits until the gate is open.
+/// A judge that notes what it grades. It stops what says `endless`. What says `wait` waits until the gate is open, and what says `long
+/// wait` lets another file pass before.
 #[derive(Debug, Default)]
 struct Noting {
     graded: Mutex<Vec<String>>,
@@ -53,6 +55,17 @@ impl Judge for Noting {
         let sources = ggrade::grade::sources(submission.assignment, submission.hand_in);
         let report = ggrade::grade::unfinished(submission.assignment, sources, verdict, Vec::new(), Default::default());
         Ok(GradedSubmission { report, frames: Arc::default() })
+    }
+
+    fn grade_or_let_pass(
+        &self,
+        submission: GradingTask<'_>,
+        passed: &mut dyn FnMut(),
+    ) -> Result<GradedSubmission, Fault> {
+        if submission.hand_in.files[0].bytes.starts_with(b"long wait") {
+            passed();
+        }
+        self.grade(submission)
     }
 }
 
@@ -144,4 +157,19 @@ async fn files_that_take_the_whole_deadline_never_hold_all_graders(database: Dat
     judge.open();
     until(|| judge.graded().len() == 4 + 5).await;
     bench.finish().await;
+}
+
+async fn a_file_that_takes_long_gives_its_grader_to_another(database: Database) {
+    let judge = Arc::new(Noting::default());
+    let config = Config { workers: 1, wait: 0.01, ..config() };
+    let bench = Bench::with(database, config, judge.clone(), Clock::system()).await;
+    bench.send(from("192.0.2.1", "long wait")).await;
+    until(|| judge.graded().len() == 1).await;
+    // The only grader takes the next one, while the first goes on.
+    bench.send(from("192.0.2.2", "another")).await;
+    until(|| judge.graded().len() == 2).await;
+    // What takes long is finished like all others before the service ends.
+    judge.open();
+    bench.finish().await;
+    assert_eq!(judge.graded(), ["long wait", "another"]);
 }

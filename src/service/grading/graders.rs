@@ -13,6 +13,7 @@ use crate::service::{Config, Service, State, folders, metrics};
 use reference::Assignment;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
+use tokio::sync::Notify;
 use tokio::task::JoinSet;
 
 /// How often graders look for files that nobody tells of: those of processes that have gone, and those that failed.
@@ -76,10 +77,13 @@ pub(in crate::service) async fn take_over(course: &Service) -> Result<(), StoreE
 async fn run(service: Service) {
     // Which course is asked first: each in turn, so that none waits for another one's whole queue.
     let mut turn = 0;
+    // Gradings that take long go on beside the next ones.
+    let mut overtime = JoinSet::new();
     while !service.is_ending() {
         let woken = service.queue.wakes.notified();
         turn += 1;
-        match take_anywhere(&service, turn).await {
+        while overtime.try_join_next().is_some() {}
+        match take_anywhere(&service, turn, &mut overtime).await {
             Ok(true) => continue,
             Ok(false) => {}
             Err(error) => {
@@ -94,30 +98,34 @@ async fn run(service: Service) {
             () = tokio::time::sleep(LOOK) => {}
         }
     }
+    while overtime.join_next().await.is_some() {}
 }
 
 /// Grades one file of any course; whether there was one.
-async fn take_anywhere(service: &Service, turn: usize) -> Result<bool, StoreError> {
+async fn take_anywhere(service: &Service, turn: usize, overtime: &mut JoinSet<()>) -> Result<bool, StoreError> {
     let mut courses = service.everywhere();
     let first = turn % courses.len();
     courses.rotate_left(first);
     for course in courses {
-        if take(&course).await? {
+        if take(&course, overtime).await? {
             return Ok(true);
         }
     }
     Ok(false)
 }
 
-/// Grades one file that nobody holds, or one that is to be graded again; whether there was one.
-async fn take(service: &Service) -> Result<bool, StoreError> {
+/// Grades one file that nobody holds, or one that is to be graded again; whether there was one. A grading that takes long is
+/// left to `overtime`.
+async fn take(service: &Service, overtime: &mut JoinSet<()>) -> Result<bool, StoreError> {
     let (now, until) = lease(service);
     if let Some((claimed, is_suspect)) = claim(service, now, until).await? {
         // Where there was one there may be more, and one wake may have stood for several.
         service.queue.wakes.notify_one();
-        grade(service, claimed, now).await;
-        if is_suspect {
-            service.queue.leave_suspects();
+        let passed = Arc::new(Notify::new());
+        let mut grading = Box::pin(grade(service.clone(), claimed, is_suspect, now, Arc::clone(&passed)));
+        tokio::select! {
+            () = &mut grading => {}
+            () = passed.notified() => drop(overtime.spawn(grading)),
         }
         return Ok(true);
     }
@@ -127,9 +135,9 @@ async fn take(service: &Service) -> Result<bool, StoreError> {
     service.queue.wakes.notify_one();
     let id = again.submission.id.clone();
     let judged = match again.folder {
-        None => judge(service, again.submission, again.hand_in).await,
+        None => judge(service, again.submission, again.hand_in, None).await,
         Some(folder) => match folders::read(service, &folder).await {
-            Ok(assignment) => judge_by(service, assignment, again.submission, again.hand_in).await,
+            Ok(assignment) => judge_by(service, assignment, again.submission, again.hand_in, None).await,
             Err(problem) => Err(Fault::new(problem.detail)),
         },
     };
@@ -187,14 +195,21 @@ async fn keep_claims(service: Service) {
     }
 }
 
-async fn grade(service: &Service, claimed: Claimed, now: Millis) {
+async fn grade(service: Service, claimed: Claimed, is_suspect: bool, now: Millis, passed: Arc<Notify>) {
+    grade_and_tell(&service, claimed, now, passed).await;
+    if is_suspect {
+        service.queue.leave_suspects();
+    }
+}
+
+async fn grade_and_tell(service: &Service, claimed: Claimed, now: Millis, passed: Arc<Notify>) {
     let start = Instant::now();
     service.queue.begin();
     let submission = claimed.submission.clone();
     metrics::stage("wait", Duration::from_millis((now - submission.received_at).max(0).unsigned_abs()));
     let judged = match claimed.is_given_up {
         true => Err(given_up()),
-        false => judge(service, claimed.submission, claimed.hand_in).await,
+        false => judge(service, claimed.submission, claimed.hand_in, Some(passed)).await,
     };
     metrics::stage("grade", start.elapsed());
     let stored = Instant::now();
@@ -218,10 +233,16 @@ fn given_up() -> Fault {
     ))
 }
 
-async fn judge(service: &Service, submission: Submission, hand_in: HandIn) -> Result<Report, Fault> {
+/// Grades by the folder that is served. `passed` is notified where the file takes so long that another one has got its place.
+async fn judge(
+    service: &Service,
+    submission: Submission,
+    hand_in: HandIn,
+    passed: Option<Arc<Notify>>,
+) -> Result<Report, Fault> {
     let not_served = || Fault::new(Text::verbatim("a claimed file is of no homework that is served"));
     let State { assignment, .. } = service.homework(&submission.assignment).ok_or_else(not_served)?;
-    judge_by(service, assignment, submission, hand_in).await
+    judge_by(service, assignment, submission, hand_in, passed).await
 }
 
 /// Grades by a version of the homework's folder.
@@ -230,12 +251,14 @@ async fn judge_by(
     assignment: Arc<Assignment>,
     submission: Submission,
     hand_in: HandIn,
+    passed: Option<Arc<Notify>>,
 ) -> Result<Report, Fault> {
     let pool = Arc::clone(&service.pool);
     let graded = tokio::task::spawn_blocking(move || {
         let Submission { seed, hints, .. } = submission;
         let order = Order { seed, hints, ..Order::default() };
-        pool.grade(sandbox::GradingTask { assignment: &assignment, hand_in: &hand_in, order, wants_frames: false })
+        let task = sandbox::GradingTask { assignment: &assignment, hand_in: &hand_in, order, wants_frames: false };
+        pool.grade_or_let_pass(task, &mut || passed.iter().for_each(|passed| passed.notify_one()))
     });
     match graded.await {
         Ok(answer) => answer.map(|answer| answer.report),
