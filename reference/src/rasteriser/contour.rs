@@ -8,10 +8,17 @@ use std::collections::HashMap;
 impl Visible {
     /// Marks the pixels whose centres lie near a contour that is seen, or near where surfaces meet.
     pub(super) fn mark(&mut self, surfaces: &[Surface<'_>]) {
-        let contours = self.contours(surfaces);
-        for (number, from, to) in contours {
-            self.mark_edge(number, from, to);
+        self.contours = self.contours(surfaces);
+        self.mark_contours();
+    }
+
+    /// The same once more, where other surfaces are seen.
+    pub(super) fn mark_contours(&mut self) {
+        let contours = std::mem::take(&mut self.contours);
+        for (number, from, to) in &contours {
+            self.mark_edge(*number, *from, *to);
         }
+        self.contours = contours;
         for pixel in std::mem::take(&mut self.doubtful) {
             self.coverage[pixel as usize] = Coverage::Silhouette;
         }

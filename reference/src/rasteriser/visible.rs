@@ -3,7 +3,7 @@
 use super::outline::{self, Corner, extent, pixels, span};
 use super::{Coverage, Setup};
 use crate::scene::{Cull, DepthTest};
-use glam::DVec4;
+use glam::{DVec2, DVec4};
 use std::collections::HashSet;
 
 /// What one draw gives: triangles in clip space, and what decides which of them are seen.
@@ -35,6 +35,8 @@ pub struct Visible {
     pub(super) setups: Vec<Setup>,
     /// Pixels where two things are equally deep, as far as roundings go.
     pub(super) doubtful: HashSet<u32>,
+    /// The edges from which no neighbour goes on: the place of the triangle in `setups`, and both ends in pixels.
+    pub(super) contours: Vec<(usize, DVec2, DVec2)>,
     /// Where each pixel lies.
     pub coverage: Vec<Coverage>,
     /// Whether a surface's pixels are tested, and how.
@@ -80,6 +82,7 @@ impl Visible {
             depths: Vec::new(),
             setups: Vec::new(),
             doubtful: HashSet::new(),
+            contours: Vec::new(),
             coverage: vec![Coverage::Outside; count],
             tests: Vec::new(),
             is_open: false,
@@ -267,5 +270,6 @@ impl Visible {
             });
             self.setups[number].outline = outline;
         }
+        self.mark_contours();
     }
 }
