@@ -4,6 +4,7 @@ use super::{LinkedInterface, Variable, place};
 use crate::diagnostic::{Diagnostic, DiagnosticStage};
 use crate::language::Text;
 use crate::source::Source;
+use crate::translate::entry::StageVariable;
 use crate::translate::spirv::DeclaredUniform;
 use crate::translate::{Shader, Stage, TranslationRefusal, blocks};
 use naga::ScalarKind;
@@ -102,9 +103,55 @@ pub(in crate::translate) fn check(
             errors.push(wrong_type(source, "in", expected, &attribute.ty));
         }
     }
+    match shader.stage {
+        Stage::Vertex => errors.extend(too_many_numbers(shader)),
+        // Only the first target is the window's.
+        Stage::Fragment => {
+            let mut seen = shader.outputs.iter().filter(|output| output.location == 0);
+            errors.extend(seen.find_map(|output| of_whole_numbers(source, output)));
+        }
+    }
     // Elements of an array are declared in one place, and are wrong together.
     errors.dedup_by_key(|error| error.line.zip(error.column).ok_or_else(|| error.message.clone()));
     if errors.is_empty() { Ok(notes) } else { Err(TranslationRefusal::Rejected(errors)) }
+}
+
+/// As drivers count: a vector of any length takes a place of four numbers.
+fn too_many_numbers(shader: &Shader) -> Option<Diagnostic> {
+    const MOST: usize = 128;
+    let numbers = 4 * shader.outputs.len();
+    (numbers > MOST).then(|| {
+        Diagnostic::error(
+            DiagnosticStage::Interface,
+            Text::new(
+                format!("the vertex stage hands over {numbers} numbers, and no driver need take more than {MOST}"),
+                format!(
+                    "頂点シェーダの出力が {numbers} 個の数値になります。ドライバが受け取れるのは {MOST} 個までです"
+                ),
+            ),
+        )
+    })
+}
+
+/// What OpenGL shows of whole numbers in a window is undefined.
+fn of_whole_numbers(source: &Source, output: &StageVariable) -> Option<Diagnostic> {
+    let StageVariable { name, ty, kind, size, .. } = output;
+    matches!(kind, Some(ScalarKind::Sint | ScalarKind::Uint)).then(|| {
+        let other = if *size == 1 { "float".to_owned() } else { format!("vec{size}") };
+        let diagnostic = Diagnostic::error(
+            DiagnosticStage::Interface,
+            Text::new(
+                format!(
+                    "`{name}` is declared as `{ty}`, but a colour in the window is made of numbers from 0.0 to 1.0"
+                ),
+                format!("`{name}` が `{ty}` と宣言されていますが、ウィンドウの色は 0.0 から 1.0 までの実数です"),
+            ),
+        );
+        place(diagnostic, source, name).hint(Text::new(
+            format!("Declare it as `out {other} {name};`."),
+            format!("`out {other} {name};` と宣言してください。"),
+        ))
+    })
 }
 
 /// Whether a path is that of a uniform, or of a part of it.
