@@ -70,8 +70,11 @@ pub(super) enum Cause {
     },
 }
 
-/// The homework with the student's own constants.
+/// The homework with the student's own constants; none where no definitions are made of them.
 fn with_constants(assignment: &Assignment, constants: &[ChangedConstant]) -> Option<Assignment> {
+    if assignment.equation.reads() == Reads::Outputs {
+        return None;
+    }
     let changes: Vec<_> = constants.iter().map(|constant| (constant.name.as_str(), constant.found.clone())).collect();
     assignment.with_constants(&changes).ok()
 }

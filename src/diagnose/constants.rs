@@ -1,6 +1,16 @@
 //! Constants of the handed-out file that the student changed, read from their own text.
 
-use crate::source::Source;
+use super::Evidence;
+use super::trials::{FUEL_OF_TRACE, StageChanges};
+use crate::compare::{COLOUR_TOLERANCE, colour_difference};
+use crate::render::Sample;
+use crate::source::{self, Source};
+use glam::DVec3;
+use reference::assignment::Constant;
+use reference::equation::Reads;
+use reference::interpreter::Stage;
+use reference::probes::ProbeSet;
+use reference::traced::{Bench, Place, TracedProgram};
 use reference::{Assignment, Value, interpreter};
 
 /// A constant with another value than the handed-out one.
@@ -12,29 +22,35 @@ pub struct ChangedConstant {
     pub expected: Value,
     /// What the student's file says.
     pub found: Value,
-    /// The line that says so, from 1.
+    /// The stage whose text says so.
+    pub stage: Stage,
+    /// The line there, from 1.
     pub line: u32,
 }
 
-/// The constants whose declaration or `#define` in `source` has another value.
+/// The constants whose declaration or `#define` in one of the texts has another value.
 ///
 /// A value that is not written as a constant expression of plain GLSL is not found; the samples show what it does.
-pub fn changed(source: &Source, assignment: &Assignment) -> Vec<ChangedConstant> {
-    let code = source.code();
-    assignment
-        .constants
-        .iter()
-        .filter_map(|constant| {
-            let (at, text) = initialiser(code, &constant.name).or_else(|| defined(code, &constant.name))?;
-            let kind = constant.value.kind();
-            let found = Value::new(kind.clone(), interpreter::constant(text, kind).ok()?)?;
-            (!is_equal(&found, &constant.value)).then(|| ChangedConstant {
-                name: constant.name.clone(),
-                expected: constant.value.clone(),
-                found,
-                line: source.position(at).0,
-            })
+pub fn changed<'s>(
+    sources: impl Iterator<Item = (Stage, &'s Source)> + Clone,
+    assignment: &Assignment,
+) -> Vec<ChangedConstant> {
+    let of_one = |constant: &Constant, stage: Stage, source: &Source| {
+        let code = source.code();
+        let (at, text) = initialiser(code, &constant.name).or_else(|| defined(code, &constant.name))?;
+        let kind = constant.value.kind();
+        let found = Value::new(kind.clone(), interpreter::constant(text, kind).ok()?)?;
+        (!is_equal(&found, &constant.value)).then(|| ChangedConstant {
+            name: constant.name.clone(),
+            expected: constant.value.clone(),
+            found,
+            stage,
+            line: source.position(at).0,
         })
+    };
+    let constants = assignment.constants.iter();
+    constants
+        .filter_map(|constant| sources.clone().find_map(|(stage, source)| of_one(constant, stage, source)))
         .collect()
 }
 
@@ -48,6 +64,37 @@ pub(super) fn with(text: &str, code: &str, name: &str, value: &Value) -> Option<
     // Lines stay where they are.
     let lines = "\n".repeat(text.get(start..end)?.matches('\n').count());
     Some(format!("{}{written}{lines}{}", text.get(..start)?, text.get(end..)?))
+}
+
+/// Whether the samples are those of a right answer with these constants, also at the probes that nobody knows beforehand, where the
+/// solution is a program of no definitions.
+pub(super) fn explain(changed: &[ChangedConstant], evidence: &Evidence<'_>) -> bool {
+    let assignment = evidence.assignment;
+    if changed.is_empty() || assignment.equation.reads() != Reads::Outputs {
+        return false;
+    }
+    let texts = assignment.files.iter().map(|file| {
+        let own = file.solution.text.clone();
+        let of_stage = changed.iter().filter(|constant| constant.stage == file.stage);
+        let other = of_stage.clone().try_fold(own, |text, constant| {
+            let code = source::read_stage(file.stage, "", text.as_bytes()).ok()?.code().to_owned();
+            with(&text, &code, &constant.name, &constant.found)
+        });
+        Some((file.stage, other?))
+    });
+    let Some(texts) = texts.collect::<Option<Vec<(Stage, String)>>>() else { return false };
+    let texts: Vec<(Stage, &str)> = texts.iter().map(|(stage, text)| (*stage, text.as_str())).collect();
+    let Ok(program) = TracedProgram::new(assignment, &texts) else { return false };
+    let shown = |probes: &ProbeSet| {
+        let places = Place::all(probes);
+        let mut bench = Bench::new(assignment, &program, &places, program.needs_quads(assignment), FUEL_OF_TRACE)?;
+        Some(bench.with(&StageChanges::default())?.colours)
+    };
+    let agrees = |probes: &ProbeSet, samples: &[Sample]| {
+        let is_it = |(wanted, sample): (&DVec3, &Sample)| colour_difference(*wanted, sample) <= COLOUR_TOLERANCE;
+        shown(probes).is_some_and(|shown| shown.iter().zip(samples).all(is_it))
+    };
+    agrees(evidence.probes, evidence.samples) && agrees(evidence.fresh.probes, evidence.fresh.samples)
 }
 
 /// Whether two values draw the same: alpha is not seen, but a light's w is.

@@ -86,7 +86,8 @@ impl<'a> TracedProbes<'a> {
     pub fn new(evidence: &Evidence<'a>, assignment: &'a Assignment) -> Option<Self> {
         let chosen = chosen(evidence);
         let places = chosen.iter().map(|at| place(evidence, *at)).collect();
-        let points = Self::of(evidence.source, evidence.traced?, assignment, places)?;
+        let source = evidence.text(assignment.equation.reads().stage()).0;
+        let points = Self::of(source, evidence.traced?, assignment, places)?;
         is_drawn(evidence, &chosen, &points.seen).then_some(points)
     }
 
@@ -169,7 +170,9 @@ impl<'a> TracedProbes<'a> {
 
     /// Whether the student wrote the line: what was handed out is right.
     fn is_own(&self, event: &Event) -> bool {
-        !is_handed_out(self.source, self.sites[event.site].line, self.assignment.files[0].starter_shader())
+        let files = &self.assignment.files;
+        let file = files.iter().find(|file| file.stage == self.stage).unwrap_or(&files[0]);
+        !is_handed_out(self.source, self.sites[event.site].line, file.starter_shader())
     }
 
     /// The place of an event.

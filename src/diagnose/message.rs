@@ -196,7 +196,7 @@ impl Facts {
         let constants = evidence.assignment.constants.iter().map(|constant| &constant.name);
         let inputs = interface.inputs.iter().map(|input| &input.name);
         let all = constants.chain(inputs).chain(interface.outputs.iter().map(|output| &output.name));
-        let code = Words::all(evidence.source);
+        let code = Words::all(evidence.sources);
         all.filter(|name| code.has(name)).map(|name| (name.clone(), format!("`{name}`"))).collect()
     }
 

@@ -5,6 +5,7 @@
 use crate::source::Source;
 use reference::Assignment;
 use reference::fit::{Fit, explain_by};
+use reference::interpreter::Stage;
 use reference::mistake::{FoundMistake, Mistake};
 use reference::probes::ProbeSet;
 use std::ops::RangeInclusive;
@@ -14,14 +15,14 @@ use std::ops::RangeInclusive;
 pub fn explained(
     counts: RangeInclusive<usize>,
     assignment: &Assignment,
-    source: &Source,
+    sources: &[(Stage, &Source)],
     probes: &ProbeSet,
     samples: &[[f64; 3]],
     tolerance: f64,
 ) -> Fit {
     let fit = explain_by(counts.clone(), assignment, probes, samples, tolerance);
     let Fit::Explained(found) = &fit else { return fit };
-    let Some(rest) = without_refuted(assignment, source, found) else { return fit };
+    let Some(rest) = without_refuted(assignment, sources, found) else { return fit };
     match explain_by(counts, &rest, probes, samples, tolerance) {
         Fit::Explained(other) if other.len() <= found.len() => Fit::Explained(other),
         _ => fit,
@@ -29,15 +30,19 @@ pub fn explained(
 }
 
 /// Whether the text has what each of these mistakes needs.
-pub fn is_borne_out(assignment: &Assignment, source: &Source, found: &[FoundMistake]) -> bool {
-    let squeezed = squeezed(&statements(source));
+pub fn is_borne_out(assignment: &Assignment, sources: &[(Stage, &Source)], found: &[FoundMistake]) -> bool {
+    let squeezed = squeezed(&statements(sources));
     let needed = found.iter().filter_map(|found| Some(&assignment.mistake(&found.id)?.needs));
     needed.filter(|needs| !needs.is_empty()).all(|needs| needs.iter().any(|part| squeezed.contains(part)))
 }
 
 /// The assignment without the found mistakes that the text refutes, if there are any.
-fn without_refuted(assignment: &Assignment, source: &Source, found: &[FoundMistake]) -> Option<Assignment> {
-    let statements = statements(source);
+fn without_refuted(
+    assignment: &Assignment,
+    sources: &[(Stage, &Source)],
+    found: &[FoundMistake],
+) -> Option<Assignment> {
+    let statements = statements(sources);
     let is_refuted = |mistake: &Mistake| {
         let is_found = found.iter().any(|found| found.id == mistake.id && found.parameter.is_none());
         let squeezed = squeezed(&statements);
@@ -52,9 +57,10 @@ fn without_refuted(assignment: &Assignment, source: &Source, found: &[FoundMista
     })
 }
 
-/// The code without the declarations of constants.
-fn statements(source: &Source) -> String {
-    let lines = (1..=source.line_count()).map(|number| source.code_line(number));
+/// The code of all files without the declarations of constants.
+fn statements(sources: &[(Stage, &Source)]) -> String {
+    let lines =
+        sources.iter().flat_map(|(_, source)| (1..=source.line_count()).map(move |number| source.code_line(number)));
     let is_constant = |line: &&str| {
         let line = line.trim_start();
         line.starts_with("const ") || line.starts_with('#')
@@ -85,7 +91,7 @@ mod tests {
             format!("const vec4 kspec = vec4(0.4);\nconst vec4 lspec = vec4(1);\nvoid main() {{\n  {statement}\n}}\n");
         let source = source::read("a.vert", code.as_bytes()).expect("a vertex shader");
         let found = [FoundMistake { id: id.into(), form: 0, parameter: None }];
-        without_refuted(reference::assignment("ggsample06").unwrap(), &source, &found).is_some()
+        without_refuted(reference::assignment("ggsample06").unwrap(), &[(Stage::Vertex, &source)], &found).is_some()
     }
 
     #[test]

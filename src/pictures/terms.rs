@@ -50,7 +50,8 @@ impl TermScene<'_> {
 impl<'a> Terms<'a> {
     /// The terms as the explanation of a report has them. `source` is where changed constants are read from.
     pub fn of(assignment: &'a Assignment, explanation: Option<&[Hypothesis]>, source: Option<&Source>) -> Self {
-        let changed = source.map(|source| constants::changed(source, assignment)).unwrap_or_default();
+        let own = source.map(|source| (assignment.files[0].stage, source));
+        let changed = constants::changed(own.into_iter(), assignment);
         let values: Vec<_> = changed.iter().map(|constant| (constant.name.as_str(), constant.found.clone())).collect();
         let found = |h: &Hypothesis| FoundMistake { id: h.id.clone(), form: h.form, parameter: h.parameter };
         Self {

@@ -65,7 +65,7 @@ pub(in crate::diagnose) fn cause(evidence: &Evidence<'_>, shape: bool) -> Cause 
             Reads::Varyings | Reads::Outputs => Cause::unexplained(Vec::new(), Vec::new()),
         };
     }
-    let constants = constants::changed(evidence.source, assignment);
+    let constants = constants::changed(evidence.sources.iter().copied(), assignment);
     if let Some(found) = explained_by(&constants, evidence, &samples) {
         return Cause::Known { constants, found, spared: Vec::new() };
     }
@@ -90,7 +90,7 @@ pub(in crate::diagnose) fn cause(evidence: &Evidence<'_>, shape: bool) -> Cause 
         is_known && !is_dark(evidence.samples) && inside::ignores_all(evidence)
     };
     let is_hard_coded = || is_lookup || is_made_for_the_poses() || is_made_of_nothing();
-    let explained = |counts| plain::explained(counts, assignment, evidence.source, probes, &samples, COLOUR_TOLERANCE);
+    let explained = |counts| plain::explained(counts, assignment, evidence.sources, probes, &samples, COLOUR_TOLERANCE);
     let (mut fit, mut begun) = (explained(1..=1), None);
     if matches!(fit, Fit::Unexplained(_)) {
         // One change of the solution says more than two mistakes.
@@ -262,7 +262,10 @@ fn explained_by(
     }
     let changed = with_constants(evidence.assignment, constants)?;
     let probes = changed.reprobe(evidence.probes);
-    match plain::explained(1..=FEW, &changed, evidence.source, &probes, samples, COLOUR_TOLERANCE) {
+    match plain::explained(1..=FEW, &changed, evidence.sources, &probes, samples, COLOUR_TOLERANCE) {
+    if constants::explain(constants, evidence) {
+        return Some(Vec::new());
+    }
         Fit::Explained(found) => Some(found),
         Fit::Unexplained(_) => None,
     }

@@ -159,9 +159,9 @@ pub(super) fn with_features(
 
 /// Several mistakes at once that explain the samples: three that are written down, or two of which one is derived.
 fn several(evidence: &Evidence<'_>, samples: &[[f64; 3]], is_dark: bool) -> Option<Cause> {
-    let Evidence { assignment, probes, source, .. } = *evidence;
+    let Evidence { assignment, probes, sources, .. } = *evidence;
     let counts = MOST_MISTAKES..=MOST_MISTAKES;
-    match plain::explained(counts, assignment, source, probes, samples, COLOUR_TOLERANCE) {
+    match plain::explained(counts, assignment, sources, probes, samples, COLOUR_TOLERANCE) {
         Fit::Explained(found) if is_borne_out(evidence, &found) => Some(Cause::known(found)),
         _ if is_dark => None,
         _ => derived(2, evidence, samples).filter(|cause| !cause.is_contradicted(evidence)),
@@ -171,10 +171,10 @@ fn several(evidence: &Evidence<'_>, samples: &[[f64; 3]], is_dark: bool) -> Opti
 /// So many mistakes, one of them derived, that explain the samples, also those that nobody knows beforehand; perhaps on top of changed
 /// constants.
 fn derived(count: usize, evidence: &Evidence<'_>, samples: &[[f64; 3]]) -> Option<Cause> {
-    let constants = constants::changed(evidence.source, evidence.assignment);
+    let constants = constants::changed(evidence.sources.iter().copied(), evidence.assignment);
     let explained = |assignment: &Assignment, probes: &ProbeSet, constants: Vec<ChangedConstant>| {
         let found = explain_derived(count, assignment, probes, samples, &is_there(evidence), COLOUR_TOLERANCE)?;
-        let is_borne_out = plain::is_borne_out(assignment, evidence.source, &found);
+        let is_borne_out = plain::is_borne_out(assignment, evidence.sources, &found);
         let spared = spared::by_text(evidence, &found);
         let cause = Cause::Known { constants, found, spared };
         (is_borne_out && !cause.is_refuted(evidence)).then_some(cause)

@@ -1,7 +1,7 @@
 //! What stands on a line of the student's file.
 
 use crate::source::{self, Source};
-use reference::interpreter::outline;
+use reference::interpreter::{Stage, outline};
 
 /// What is written on a line.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -17,9 +17,9 @@ impl Words {
         Self(words)
     }
 
-    /// The whole file.
-    pub fn all(source: &Source) -> Self {
-        Self(words(source.code()))
+    /// All files.
+    pub fn all(sources: &[(Stage, &Source)]) -> Self {
+        Self(sources.iter().flat_map(|(_, source)| words(source.code())).collect())
     }
 
     /// Whether it has the word.

@@ -54,7 +54,7 @@ impl<'f> Blanks<'f> {
             }
             (Cause::Known { constants, .. }, CONSTANTS_CHANGED) => {
                 let of_line = |changed: &&ChangedConstant| belongs(evidence.assignment, &changed.name, line);
-                blanks.constant(constants.iter().find(of_line));
+                blanks.constant(evidence, constants.iter().find(of_line));
             }
             (Cause::Unexplained { .. }, id)
                 if let Some(line) = facts.listed(id, line).and_then(|listed| listed.line()) =>
@@ -157,7 +157,7 @@ impl<'f> Blanks<'f> {
     pub fn situation(&self, evidence: &Evidence<'_>, cause: &Cause, mistake: &Mistake) -> impl Fn(&Condition) -> bool {
         let code = match (self.line, self.source) {
             (Some(line), source) => Words::at(source.unwrap_or(evidence.source), line),
-            (None, _) => Words::all(evidence.source),
+            (None, _) => Words::all(evidence.sources),
         };
         let form = match cause {
             Cause::Known { found, .. } => found.iter().find(|found| found.id == mistake.id).map(|found| found.form),
@@ -172,10 +172,9 @@ impl<'f> Blanks<'f> {
         }
     }
 
-    fn constant(&mut self, changed: Option<&ChangedConstant>) {
+    fn constant(&mut self, evidence: &'f Evidence<'_>, changed: Option<&ChangedConstant>) {
         let Some(changed) = changed else { return };
-        self.line = Some(changed.line);
-        self.values.push(("line", changed.line.to_string()));
+        self.is_at(evidence, evidence.text(Some(changed.stage)).0, changed.line);
         self.values.push(("name", changed.name.clone()));
         self.values.push(("expected", numbers(changed.expected.numbers())));
         self.values.push(("found", numbers(changed.found.numbers())));
