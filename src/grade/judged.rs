@@ -163,13 +163,31 @@ fn read_as(
     };
     let mut diagnosis = diagnose::agreement(&evidence).or_else(|| reading.filter(|_| is_likely).map(read))?;
     diagnosis.explanation = None;
-    diagnosis.advice.extend(reading.map(|reading| AdviceLine {
+    let followed =
+        reading.filter(|reading| diagnosis.is_right || is_followed(reading, assignment, &probes, &diagnosis));
+    diagnosis.advice.extend(followed.map(|reading| AdviceLine {
         id: reading.id.clone(),
         message: Text::new(&*reading.note.en, &*reading.note.ja),
         file: evidence.source.facts.name.clone(),
         line: None,
     }));
     Some(ReadHandIn { frames, diagnosis, own_values: None })
+}
+
+/// Whether a wrong answer has all points of the lines that judge what a reading reads in another way: else it has something third there.
+fn is_followed(reading: &Reading, assignment: &Assignment, probes: &ProbeSet, diagnosis: &Diagnosis) -> bool {
+    let both = [assignment, &reading.assignment].map(|own| own.equation.right());
+    let is_other = |name: &str| {
+        probes.iter().any(|probe| {
+            let values = both.each_ref().map(|right| {
+                let outcome = right.evaluate(probes.uniforms(probe), &probe.attributes);
+                outcome.get(name).map(|value| value.numbers().to_vec())
+            });
+            values[0] != values[1]
+        })
+    };
+    let all = || assignment.rubric.iter().zip(&diagnosis.rubric);
+    all().all(|(line, judged)| judged.points >= judged.max_points || !is_other(&line.judges))
 }
 
 /// What was drawn beside what is expected, frame by frame.
