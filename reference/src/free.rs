@@ -4,6 +4,7 @@
 //! homework says it may be. The first way in which the answer shows what is right is taken, or else the way in which it computes most of
 //! it.
 
+mod explained;
 mod progress;
 
 use crate::assignment::Uniform;
@@ -52,18 +53,26 @@ const FEW_GROUPS: usize = 2;
 /// A colour this near to the right one is right, as probes are judged.
 const TOLERANCE: f64 = 2e-3;
 
-/// The ways that are right most often, in their order. `right`: how often each of some is right at the first probes.
-fn likely(ways: usize, right: &dyn Fn(&[usize]) -> Vec<usize>) -> Vec<usize> {
-    let all: Vec<usize> = (0..ways).collect();
-    if ways <= MOST_LIKELY {
-        return all;
+/// So many probes of a camera are looked at, one number after the other, as long as too many ways are left.
+const PROBES: [usize; 4] = [1, 2, 4, 8];
+
+/// The ways that are right most often, in their order. `right`: how often each of some is right at so many probes of each camera.
+fn likely(ways: usize, right: &dyn Fn(&[usize], usize) -> Vec<usize>) -> Vec<usize> {
+    let mut left: Vec<usize> = (0..ways).collect();
+    for each in PROBES {
+        if left.len() <= MOST_LIKELY {
+            break;
+        }
+        let some = left.chunks(LANES / (FEW_GROUPS * each));
+        let counts: Vec<usize> = some.flat_map(|numbers| right(numbers, each)).collect();
+        let mut sorted = counts.clone();
+        sorted.sort_unstable_by_key(|count| std::cmp::Reverse(*count));
+        // Ways that are right as often as the last one of these are not told apart yet.
+        let least = sorted[MOST_LIKELY - 1];
+        left = left.into_iter().zip(counts).filter(|(_, count)| *count >= least).map(|(way, _)| way).collect();
     }
-    let counts: Vec<usize> = all.chunks(LANES / FEW_GROUPS).flat_map(right).collect();
-    let mut likely = all;
-    likely.sort_by_key(|number| std::cmp::Reverse(counts[*number]));
-    likely.truncate(MOST_LIKELY);
-    likely.sort_unstable();
-    likely
+    left.truncate(MOST_LIKELY);
+    left
 }
 
 impl Assignment {
@@ -112,9 +121,11 @@ impl Assignment {
                 theirs
             }))
         };
+        let shown = |numbers: &[usize], probes: &ProbeSet| {
+            extended.shown_once(&pipeline, &given(numbers, probes)).unwrap_or_default()
+        };
         let right = |numbers: &[usize], probes: &ProbeSet| {
-            let all = given(numbers, probes);
-            let shown = extended.shown_once(&pipeline, &all).unwrap_or_default();
+            let shown = shown(numbers, probes);
             let is_right = |(probe, shown): &(&Probe, &ProbeOutput)| {
                 (probe.colour - shown.colour).abs().max_element() <= TOLERANCE
             };
@@ -125,7 +136,7 @@ impl Assignment {
         };
         // What does not fit at a few probes need not be run at all of them.
         let (_, few) = probes.part(FEW_GROUPS);
-        let likely = likely(ways, &|numbers| right(numbers, &few.thinned(1)));
+        let likely = likely(ways, &|numbers, each| right(numbers, &few.thinned(each)));
         let mut counts = Vec::with_capacity(likely.len());
         for numbers in likely.chunks(LANES / few.probes.len().max(1)) {
             for (count, number) in right(numbers, &few).into_iter().zip(numbers) {
@@ -140,7 +151,12 @@ impl Assignment {
         let is_alone = may_be.iter().filter(|may_be| may_be.len() > 1).count() < 2;
         let progress = self.progress(&extended, texts, &few, &likely, &given);
         let kept = |at: &usize| (progress[*at], if is_alone { 0 } else { counts[*at] }, std::cmp::Reverse(*at));
-        (0..likely.len()).max_by_key(kept).map_or_else(|| way(0), |best| way(likely[best]))
+        let mut ranked: Vec<usize> = (0..likely.len()).collect();
+        ranked.sort_by_key(|at| std::cmp::Reverse(kept(at)));
+        let ranked: Vec<usize> = ranked.into_iter().map(|at| likely[at]).collect();
+        // One mistake says more of what is wrong than two, or than none that is known.
+        let explained = self.explained(&ranked, &few, &|number| shown(&[number], &few));
+        way(explained.or(ranked.first().copied()).unwrap_or(0))
     }
 
     /// The homework, which sets these uniforms as well. Two may have one name, and different types.

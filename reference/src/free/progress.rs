@@ -54,9 +54,9 @@ impl Assignment {
                 let lanes = |right: &[Vec<f64>]| at * right[0].len()..(at + 1) * right[0].len();
                 let computes = |(stage, right): &&NamedValue| {
                     let mut events = traces[*stage as usize].iter().flat_map(|trace| &trace.events);
-                    events.any(|event| has(event, right, lanes(right)))
+                    events.any(|event| has(&event.values, &event.lanes, right, lanes(right)))
                 };
-                let looks_up = |right: &Vec<Vec<f64>>| places.iter().any(|event| has(event, right, lanes(right)));
+                let looks_up = |right: &Vec<Vec<f64>>| places.iter().any(|(own, on)| has(own, on, right, lanes(right)));
                 *found =
                     Progress { looks_up: looked_up.iter().any(looks_up), count: named.iter().filter(computes).count() };
             }
@@ -99,16 +99,32 @@ fn named(solution: &TracedProgram, traces: &[Option<Trace>; 2]) -> Vec<NamedValu
 
 /// Where the right answer looks textures up, as far as it is not the same everywhere: at most the place on a picture and a depth.
 fn looked_up(solution: &TracedProgram, traces: &[Option<Trace>; 2]) -> Vec<Vec<Vec<f64>>> {
-    let is_place = |event: &&Event| event.values.iter().any(|column| is_telling(column));
-    arguments(solution, traces).into_iter().filter(is_place).map(|event| event.values.clone()).collect()
+    let places = arguments(solution, traces).into_iter().map(|(values, _)| values);
+    places.filter(|place| place.iter().any(|column| is_telling(column))).collect()
 }
 
-/// What the lookups of the fragment stage are given.
-fn arguments<'t>(program: &TracedProgram, traces: &'t [Option<Trace>; 2]) -> Vec<&'t Event> {
+/// What the lookups of the fragment stage are given, and where they are done. What a projective one divides by its last component is
+/// given as it is then.
+fn arguments(program: &TracedProgram, traces: &[Option<Trace>; 2]) -> Vec<(Vec<Vec<f64>>, Vec<bool>)> {
     let sites = program.stage(Stage::Fragment).sites();
     let Some(trace) = &traces[Stage::Fragment as usize] else { return Vec::new() };
-    let looks_up = |event: &&Event| matches!(&sites[event.site].what, What::Call(name) if is_lookup(name));
-    trace.events.iter().filter(looks_up).flat_map(|event| &event.from).map(|from| &trace.events[*from]).collect()
+    let lookup = |event: &Event| match &sites[event.site].what {
+        What::Call(name) if is_lookup(name) => Some(name.contains("Proj")),
+        _ => None,
+    };
+    let given = trace.events.iter().filter_map(|event| Some((lookup(event)?, event)));
+    let given = given.flat_map(|(is_divided, event)| event.from.iter().map(move |from| (is_divided, *from)));
+    let place = |(is_divided, from): (bool, usize)| {
+        let Event { values, lanes, .. } = &trace.events[from];
+        let place = match &values[..] {
+            [place @ .., by] if is_divided && place.len() > 1 => {
+                place.iter().map(|own| own.iter().zip(by).map(|(own, by)| own / by).collect()).collect()
+            }
+            whole => whole.to_vec(),
+        };
+        (place, lanes.clone())
+    };
+    given.map(place).collect()
 }
 
 /// Whether numbers differ so much that no others equal them by chance: those of a comparison are two.
@@ -121,9 +137,9 @@ fn is_telling(numbers: &[f64]) -> bool {
 }
 
 /// Whether a value is a right one for some samples, as far as both have components: a place on a picture may have a depth beside it.
-fn has(event: &Event, right: &[Vec<f64>], own: Range<usize>) -> bool {
+fn has(values: &[Vec<f64>], lanes: &[bool], right: &[Vec<f64>], own: Range<usize>) -> bool {
     let is_equal = |(a, b): (&f64, &f64)| (a - b).abs() <= 1e-6 * b.abs().max(1.0);
-    event.values.len() >= right.len().min(2)
-        && event.lanes.get(own.clone()).is_some_and(|lanes| lanes.iter().all(|is_on| *is_on))
-        && event.values.iter().zip(right).all(|(value, right)| value[own.clone()].iter().zip(right).all(is_equal))
+    values.len() >= right.len().min(2)
+        && lanes.get(own.clone()).is_some_and(|lanes| lanes.iter().all(|is_on| *is_on))
+        && values.iter().zip(right).all(|(value, right)| value[own.clone()].iter().zip(right).all(is_equal))
 }
