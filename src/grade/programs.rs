@@ -3,6 +3,7 @@
 use super::extended::Extended;
 use super::judged::JudgedHandIn;
 use super::{Graded, Grader, Order, map_lookup};
+use crate::compare::{COLOUR_TOLERANCE, colour_difference};
 use crate::cross_check;
 use crate::diagnose::UNEXPLAINED;
 use crate::diagnostic::{Diagnostic, DiagnosticStage as Speaker};
@@ -16,7 +17,7 @@ use crate::translate::{self, HomeworkProgram, Linked, LinkedInterface, ProgramRe
 use reference::Assignment;
 use reference::equation::{DISCARDED, Reads};
 use reference::interpreter::{ProgramVariable, root};
-use reference::probes::ProbeSet;
+use reference::probes::{Probe, ProbeSet, Spot};
 
 /// The program of a homework, as far as it is not handed in.
 #[derive(Debug)]
@@ -103,11 +104,15 @@ impl Grader {
             return Ok(self.refused(infos, Verdict::Stopped, diagnostics));
         }
         drawn();
-        let drawing = Rendering { probe_samples: samples(&linked, &rendering), undefined: None, ..rendering };
         let Some((_, source)) = sources.last() else { return Err(no_program()) };
         let own = extended.as_ref();
         let (assignment, probes) = own.map_or((&*self.assignment, &self.probes), |own| (&own.assignment, &own.probes));
         let fresh = own_fresh.as_ref().unwrap_or(&probing.fresh);
+        let mut samples = samples(&linked, &rendering);
+        if linked.fragment.shift.is_some() {
+            pass_outside(probes.iter().chain(fresh.iter()), samples.iter_mut().flatten());
+        }
+        let drawing = Rendering { probe_samples: samples, undefined: None, ..rendering };
         let crossings = own_crossings.as_ref().or(self.crossings.as_ref());
         let (sources, rendering) = (&given[..], &drawing);
         let judged = JudgedHandIn { source, sources, assignment, probes, fresh, crossings, rendering };
@@ -220,6 +225,22 @@ fn samples(linked: &Linked, rendering: &Rendering) -> Vec<Vec<Sample>> {
         pixels.iter().enumerate().map(sample).collect()
     };
     rendering.pixels.iter().enumerate().map(of_batch).collect()
+}
+
+/// Has an answer that reads `gl_FragCoord`, and is right at all probes within the window, pass at those outside: no pixel lies there.
+fn pass_outside<'p>(probes: impl Iterator<Item = &'p Probe>, samples: impl Iterator<Item = &'p mut Sample>) {
+    let is_outside = |probe: &Probe| {
+        let within = |axis: usize, spot: &Spot| (0.0..spot.window[axis]).contains(&spot.place[axis]);
+        probe.spot.as_ref().is_some_and(|spot| !(within(0, spot) && within(1, spot)))
+    };
+    let (outside, within): (Vec<_>, Vec<_>) = probes.zip(samples).partition(|(probe, _)| is_outside(probe));
+    if within.iter().any(|(probe, sample)| colour_difference(probe.colour, sample) > COLOUR_TOLERANCE) {
+        return;
+    }
+    for (probe, sample) in outside {
+        let colour = probe.colour.extend(f64::from(sample.colour[3])).as_vec4().to_array();
+        *sample = Sample { position: probe.position.as_vec4().to_array(), colour };
+    }
 }
 
 /// What a fragment shows; nothing where it is thrown away, or where nothing is ever written.
