@@ -25,7 +25,7 @@ pub enum DiagnosticStage {
     Source,
     /// Compiling the vertex shader.
     Compile,
-    /// Linking it with the fixed fragment shader.
+    /// Linking it with the other stage.
     Link,
     /// Holding its inputs, uniforms and outputs against the assignment.
     Interface,

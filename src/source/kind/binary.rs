@@ -109,10 +109,14 @@ fn utf16_without_sense() -> Diagnostic {
             "ファイルの先頭に UTF-16 の BOM がありますが、UTF-16 として読むと意味をなしません。壊れているか、テキストではありません。",
         ),
     )
-    .hint(Text::new(
-        "Open it in a text editor, check that it is your vertex shader, and save it as UTF-8.",
-        "テキストエディタで開いて頂点シェーダであることを確かめ、UTF-8 で保存し直してください。",
-    ))
+    .hint(open_and_save())
+}
+
+fn open_and_save() -> Text {
+    Text::new(
+        "Open it in a text editor, check that it is your shader, and save it as UTF-8.",
+        "テキストエディタで開いてシェーダのソースであることを確かめ、UTF-8 で保存し直してください。",
+    )
 }
 
 fn with_nul(bytes: &[u8], at: usize) -> Diagnostic {
@@ -124,10 +128,7 @@ fn with_nul(bytes: &[u8], at: usize) -> Diagnostic {
             format!("{line} 行目に NUL バイト（00）があります。バイナリファイルか、壊れたファイルのようです。"),
         ),
     )
-    .hint(Text::new(
-        "Open it in a text editor, check that it is your vertex shader, and save it as UTF-8.",
-        "テキストエディタで開いて頂点シェーダであることを確かめ、UTF-8 で保存し直してください。",
-    ))
+    .hint(open_and_save())
 }
 
 #[cfg(test)]

@@ -101,10 +101,9 @@ fn about(stage: DiagnosticStage) -> Text {
             "The compiler does not take the shader, or warns about it.",
             "コンパイラがシェーダを受け付けないか、警告しています。",
         ),
-        DiagnosticStage::Link => Text::new(
-            "The shader does not go together with the fixed fragment shader.",
-            "シェーダを固定のフラグメントシェーダとリンクできません。",
-        ),
+        DiagnosticStage::Link => {
+            Text::new("The shaders of the program do not go together.", "プログラムのシェーダ同士をリンクできません。")
+        }
         DiagnosticStage::Interface => Text::new(
             "The inputs, uniforms or outputs are not those of the assignment.",
             "入力変数、uniform 変数、出力変数が課題の指定と異なります。",
