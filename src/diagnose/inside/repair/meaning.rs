@@ -101,16 +101,47 @@ impl Search<'_, '_> {
     /// unit vector its length.
     pub(super) fn is_by_chance(&self, attempt: &RepairAttempt, step: &RepairStep) -> bool {
         let (stage, repair) = step;
-        if !matches!(repair.mistake, Operator::OtherValue | Operator::NormalizeLeftOut) {
-            return false;
-        }
         let Some((marked, _, trace)) = self.marked(attempt, step) else { return false };
         let program = marked.stage(*stage);
         let is_computed = computed_from_the_mark(program, &trace);
-        let varies = |from: &usize| is_computed[*from] && !is_constant(&trace.events[*from].values);
-        trace.events.iter().any(|event| {
+        let varies = |from: &usize| !is_constant(&trace.events[*from].values);
+        let is_level = |event: &Event| {
             let is_of_function = matches!(program.sites()[event.site].what, What::Call(_));
-            is_of_function && is_constant(&event.values) && event.from.iter().any(varies)
+            is_of_function && is_constant(&event.values)
+        };
+        // A function that is put there leaves nothing of a value.
+        if trace
+            .events
+            .iter()
+            .any(|event| is_marked(program, event) && is_level(event) && event.from.iter().any(varies))
+        {
+            return true;
+        }
+        if !matches!(repair.mistake, Operator::OtherValue | Operator::OtherNumber | Operator::NormalizeLeftOut) {
+            return false;
+        }
+        let is_made_of = |from: &usize| is_computed[*from] && varies(from);
+        trace.events.iter().any(|event| is_level(event) && event.from.iter().any(is_made_of))
+            || self.levels(&attempt.program, &marked)
+    }
+
+    /// Whether a function gives the same everywhere with a change, and not without it.
+    fn levels(&self, before: &TracedProgram, after: &TracedProgram) -> bool {
+        let traces = |program: &TracedProgram| {
+            let mut bench = Bench::new(self.assignment, program, self.places, self.in_quads, FUEL_OF_TRACE)?;
+            Some(bench.trace(&StageChanges::default())?.1)
+        };
+        let Some((own, changed)) = traces(before).zip(traces(after)) else { return false };
+        [Stage::Vertex, Stage::Fragment].into_iter().any(|stage| {
+            let Some((own, changed)) = own[stage as usize].as_ref().zip(changed[stage as usize].as_ref()) else {
+                return false;
+            };
+            let sites = after.stage(stage).sites();
+            let is_level = |(own, changed): (&Event, &Event)| {
+                let is_of_function = own.site == changed.site && matches!(sites[changed.site].what, What::Call(_));
+                is_of_function && is_constant(&changed.values) && !is_constant(&own.values)
+            };
+            own.events.len() == changed.events.len() && own.events.iter().zip(&changed.events).any(is_level)
         })
     }
 
