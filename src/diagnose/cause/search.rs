@@ -214,8 +214,11 @@ fn told_by_text(
     if let Ok([repaired]) = <[Repaired; 1]>::try_from(repairs)
         && repaired.builds_on_the_text()
     {
+        // A change in other lines than those which are wrong by what is seen is right by chance.
+        let costs =
+            |id: &String| assignment.rubric.iter().any(|line| line.id == *id && assignment.keeps(first, line) < 1.0);
         let lines = worth::charged(assignment, &[], &repaired);
-        return (!lines.is_empty()).then(|| Cause::Repaired(vec![(lines, repaired)]));
+        return lines.iter().any(costs).then(|| Cause::Repaired(vec![(lines, repaired)]));
     }
     let terms = judge_features(alternatives, samples, COLOUR_TOLERANCE);
     let terms = spared::by_outputs(evidence, spared::beside(evidence, terms, &findings));
