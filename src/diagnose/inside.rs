@@ -126,8 +126,10 @@ pub(super) fn slip(evidence: &Evidence<'_>) -> (Vec<Finding>, Option<Located>) {
 fn slip_beside(evidence: &Evidence<'_>, others: &[FoundMistake]) -> (Vec<Finding>, Option<Located>) {
     let both = |search: &mut Search<'_, '_>| {
         let findings = search.places();
-        // What is thrown away or written over is a slip of its own.
-        let is_value = findings.first().is_none_or(|first| !matches!(first.flaw, Flaw::ThrownAway | Flaw::Overwrites));
+        // What is thrown away, written over or declared is a slip of its own.
+        let is_its_own =
+            |first: &Finding| matches!(first.flaw, Flaw::ThrownAway | Flaw::Overwrites | Flaw::Interpolation);
+        let is_value = !findings.first().is_some_and(is_its_own);
         let slip = if is_value { search.slip(&findings) } else { None };
         (findings, slip)
     };

@@ -15,7 +15,6 @@ use crate::language::Text;
 use blanks::Blanks;
 use kept::KeptLines;
 use reference::assignment::RubricLine;
-use reference::equation::Reads;
 use reference::mistake::{FoundMistake, Mistake};
 
 /// A message and the line of the student's file that it speaks of.
@@ -142,9 +141,7 @@ impl Facts {
         let theirs = evidence.assignment.with_constants(&values).unwrap_or_else(|_| evidence.assignment.clone());
         let mut points = TracedProbes::new(evidence, &theirs);
         let wrong = Listed::of(evidence);
-        // A program of no definitions is known by changes of its text already, which say the line.
-        let has_definitions = evidence.assignment.equation.reads() != Reads::Outputs;
-        let is_sought = wrong.is_none() && has_definitions && changed.is_empty() && !found.is_empty();
+        let is_sought = wrong.is_none() && changed.is_empty() && !found.is_empty();
         let (findings, slip) = match found {
             _ if is_sought => inside::slip(evidence),
             [_, _, ..] => (inside::find_in(evidence, &theirs), None),
@@ -165,10 +162,6 @@ impl Facts {
         let sought = if wrong.is_some() { &[] } else { found };
         let mut places: Vec<_> =
             sought.iter().enumerate().map(|(index, mistake)| (mistake.id.clone(), place(index))).collect();
-        // Where no value tells the place of the only one, the text may become right by one change.
-        if let ([(_, place @ None)], false, None) = (&mut places[..], has_definitions, &wrong) {
-            *place = inside::slip(evidence).1;
-        }
         let is_found = |id: &&String| mistakes.contains(id) && !places.iter().any(|(known, _)| known == *id);
         if let Some(id) = evidence.assignment.gradual.as_ref().map(|gradual| &gradual.abrupt).filter(is_found) {
             places.push((id.clone(), inside::decision(evidence)));

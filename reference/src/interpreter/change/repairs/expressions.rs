@@ -42,7 +42,8 @@ pub(super) fn of_expression(
             line: place.own.line,
             is_bound_by_zero: added.is_bound_by_zero,
             added: added.name,
-            is_slip: false,
+            // One number is written for another.
+            is_slip: added.mistake == Operator::OtherNumber,
             // What a function of the text is called for may as well be wrong in the function.
             is_elsewhere: added.is_elsewhere || has_own_call(place.own),
             is_of_use,

@@ -184,7 +184,7 @@ impl Ingredients {
             is_bound_by_zero: false,
             is_elsewhere: match mistake {
                 Operator::AddendLeftOut => !is_measured,
-                Operator::OtherValue | Operator::OtherNumber => true,
+                Operator::OtherValue => true,
                 _ => false,
             },
         };

@@ -6,6 +6,7 @@ use super::super::leaves::OF_THREE;
 use super::super::tree::{ExpressionPlace, operands};
 use super::super::types::{KnownTypes, guess};
 use super::super::{Operator, bare, written};
+use crate::interpreter::is_builtin;
 use crate::interpreter::syntax::{Binary, Expression, ExpressionKind, Name, Unary};
 use crate::interpreter::types::Type;
 
@@ -52,8 +53,8 @@ pub(super) fn changes(
                 found.push((mistake, Expression { kind, ..own.clone() }));
             }
         }
-        // One that is copied from where it is the first.
-        ExpressionKind::Integer(..) if place.parent.is_some_and(is_index) => {
+        // One that is copied from where it is the first, or written for how many there are.
+        ExpressionKind::Integer(..) if place.parent.is_some_and(is_counted_by) => {
             let whole = known.names.iter().filter(|(_, kind)| *kind == Type::INT);
             found.extend(whole.map(|(name, _)| (Operator::OtherValue, name.clone())));
         }
@@ -176,8 +177,17 @@ fn is_one_of_several(parent: &Expression) -> bool {
     matches!(&parent.kind, ExpressionKind::Call(name, all) if Type::named(name).is_some() && all.len() > 1)
 }
 
-fn is_index(parent: &Expression) -> bool {
-    matches!(parent.kind, ExpressionKind::Index(..))
+/// Whether a whole number stands there for an element, for how many there are, or for one of several cases.
+fn is_counted_by(parent: &Expression) -> bool {
+    match &parent.kind {
+        ExpressionKind::Index(..) => true,
+        ExpressionKind::Call(name, _) => Type::named(name).is_none() && !is_builtin(name),
+        ExpressionKind::Chain(_, others) => {
+            let is_bound = |operator| matches!(operator, Binary::Less | Binary::LessEqual | Binary::NotEqual);
+            others.iter().any(|(operator, ..)| is_bound(*operator))
+        }
+        _ => false,
+    }
 }
 
 /// A quotient of whole numbers as one of floats.
