@@ -148,7 +148,7 @@ pub fn diagnose(evidence: &Evidence<'_>) -> Diagnosis {
         rubric,
         advice,
         mistakes,
-        repairs: cause.repairs().map(|repaired| repaired.shown(evidence)).collect(),
+        repairs: cause.repairs().filter_map(|repaired| repaired.shown(evidence)).collect(),
         explanation: cause.explanation(),
         probes: probes.result,
     }

@@ -103,6 +103,14 @@ pub(super) fn find(evidence: &Evidence<'_>) -> Vec<Finding> {
     recording.findings.get_or_init(|| find_in(evidence, evidence.assignment)).clone()
 }
 
+/// The same where a right answer is the one with these mistakes in it.
+pub(super) fn find_beside(evidence: &Evidence<'_>, others: &[FoundMistake]) -> Vec<Finding> {
+    if others.is_empty() {
+        return find(evidence);
+    }
+    within(evidence, evidence.assignment, others, &[], |search| search.findings()).unwrap_or_default()
+}
+
 /// The same in the homework with other constants.
 pub(super) fn find_in(evidence: &Evidence<'_>, assignment: &Assignment) -> Vec<Finding> {
     within(evidence, assignment, &[], &[], |search| search.findings()).unwrap_or_default()
@@ -143,7 +151,12 @@ pub(super) fn slip_of(evidence: &Evidence<'_>, found: &[FoundMistake], index: us
 
 /// The one change of a kind by which all is right.
 pub(super) fn only_change(evidence: &Evidence<'_>, aim: RepairAim) -> Option<Repaired> {
-    within(evidence, evidence.assignment, &[], &[], |search| search.only(&[], aim))?
+    only_change_beside(evidence, &[], aim)
+}
+
+/// The same where a right answer is the one with these mistakes in it.
+pub(super) fn only_change_beside(evidence: &Evidence<'_>, others: &[FoundMistake], aim: RepairAim) -> Option<Repaired> {
+    within(evidence, evidence.assignment, others, &[], |search| search.only(&[], aim))?
 }
 
 /// Looks for the place of one of the mistakes that were found: where a right answer is the one with the others in it.

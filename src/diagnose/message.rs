@@ -169,7 +169,8 @@ impl Facts {
         let findings = match cause {
             // Everything stands where it should not, and nothing else is wrong.
             Cause::Known { constants, found, .. } if constants.is_empty() && found.is_empty() => inside::find(evidence),
-            Cause::Right | Cause::Parts(_) | Cause::NearlyRight(_) => inside::find(evidence),
+            Cause::Parts(parts) => inside::find_beside(evidence, &parts.found),
+            Cause::Right | Cause::NearlyRight(_) => inside::find(evidence),
             Cause::Known { .. } | Cause::HardCoded | Cause::NothingDrawn | Cause::Repaired(_) => Vec::new(),
             Cause::Unexplained { findings, .. } => findings.clone(),
         };

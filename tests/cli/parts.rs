@@ -40,14 +40,14 @@ fn what_no_part_shows_has_a_line_of_its_own() {
 #[test]
 fn the_rest_of_the_colour_is_judged_where_no_part_shows() {
     let written = Written::from(&["strand.frag"]);
-    // Nothing explains it, and it shows only where the lamps do, which have a line of their own.
+    // It shows only where the lamps do, which have a line of their own; that line's normal is right, and what is made of it is not.
     let report = written.graded(&[("strand * wrapped", "fract(strand * 9.7)")]);
     let points = |id: &str| {
         let lines = report["rubric"].as_array().unwrap();
         let line = lines.iter().find(|line| line["id"] == id).unwrap();
         line["points"].as_f64().unwrap() / line["max_points"].as_f64().unwrap()
     };
-    assert_eq!((points("colour"), points("n")), (1.0, 0.0), "{report:#}");
+    assert_eq!((points("colour"), points("n")), (1.0, 0.4), "{report:#}");
     // The floor and the sky light what no lamp does.
     let swapped = written.graded(&[("mix(floorColour, skyColour, 0.5 + 0.5 * n.y)", "floorColour * skyColour")]);
     assert!(swapped["rubric"][0]["id"] == "colour" && swapped["rubric"][0]["points"].as_f64() < Some(50.0));

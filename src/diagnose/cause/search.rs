@@ -263,12 +263,12 @@ fn explained_by(
     if constants.is_empty() {
         return None;
     }
-    let changed = with_constants(evidence.assignment, constants)?;
-    let probes = changed.reprobe(evidence.probes);
-    match plain::explained(1..=FEW, &changed, evidence.sources, &probes, samples, COLOUR_TOLERANCE) {
     if constants::explain(constants, evidence) {
         return Some(Vec::new());
     }
+    let changed = with_constants(evidence.assignment, constants)?;
+    let probes = changed.reprobe(evidence.probes);
+    match plain::explained(1..=FEW, &changed, evidence.sources, &probes, samples, COLOUR_TOLERANCE) {
         Fit::Explained(found) => Some(found),
         Fit::Unexplained(_) => None,
     }

@@ -10,11 +10,13 @@ use crate::diagnose::locate::{self, TracedProbes};
 use crate::diagnose::{Evidence, addends, plain};
 use reference::Assignment;
 use reference::assignment::RubricLine;
+use reference::equation::Reads;
 use reference::fit::{
     Alternatives, FeatureDefect, FeatureExplanation, Fit, MOST_MISTAKES, TermJudgement, explain_derived, explain_parts,
     judge_factor, judge_features, programs_of,
 };
-use reference::mistake::FoundMistake;
+use reference::interpreter::Operator;
+use reference::mistake::{FoundMistake, Mistake};
 use reference::probes::ProbeSet;
 
 /// What else may be the cause where no single one explains everything.
@@ -97,7 +99,14 @@ pub(super) fn unexplained(
     // What one change of the text does not mend, several mistakes may explain, and then two changes.
     let several = || several(evidence, samples, is_dark);
     let mut sought = doubtful.map(Some);
-    let (findings, repairs) = inside::account(evidence, &mut || sought.get_or_insert_with(several).is_none());
+    let mut beside = None;
+    let (findings, repairs) = inside::account(evidence, &mut || {
+        beside = beside_what_is_missing(evidence, alternatives, samples);
+        beside.is_none() && sought.get_or_insert_with(several).is_none()
+    });
+    if let Some(cause) = beside.filter(|_| repairs.is_empty()) {
+        return cause;
+    }
     if repairs.is_empty()
         && let Some(cause) = sought.get_or_insert_with(several).take()
     {
@@ -123,9 +132,59 @@ pub(super) fn unexplained(
     let repairs = repairs.into_iter().map(|repaired| (worth::charged(assignment, &terms, &repaired), repaired));
     let repairs: Vec<(Vec<String>, Repaired)> = repairs.collect();
     if repairs.is_empty() || repairs.iter().any(|(lines, _)| lines.is_empty()) {
-        return sought.unwrap_or_else(several).unwrap_or(Cause::unexplained(terms, findings));
+        let cause = sought.unwrap_or_else(several).or_else(|| made_otherwise(evidence, &terms, &findings));
+        return cause.unwrap_or(Cause::unexplained(terms, findings));
     }
     Cause::Repaired(repairs)
+}
+
+/// So many parts are taken for missing, one after the other, in search of what else is wrong: some tenths of a second each.
+const MOST_MISSING: usize = 2;
+
+/// A part of which nothing is right wherever it shows, which a known mistake takes away as a whole, and the one slip of the text without
+/// which all is as it is in a right answer that lacks this part.
+fn beside_what_is_missing(
+    evidence: &Evidence<'_>,
+    alternatives: &Alternatives<'_>,
+    samples: &[[f64; 3]],
+) -> Option<Cause> {
+    let assignment = evidence.assignment;
+    if assignment.equation.reads() != Reads::Outputs {
+        return None;
+    }
+    let terms = judge_features(alternatives, samples, COLOUR_TOLERANCE);
+    let is_missing = |line: &&RubricLine| {
+        terms.iter().any(|term| term.line == line.id && term.judged > 0 && 10 * term.matched <= term.judged)
+    };
+    let lost_by = |mistake: &Mistake| -> Vec<&RubricLine> {
+        assignment.rubric.iter().filter(|line| mistake.keeps(&line.id) < 1.0).collect()
+    };
+    let alone = assignment.mistakes.iter().filter_map(|mistake| match lost_by(mistake)[..] {
+        [line] if mistake.keeps(&line.id) == 0.0 => Some((mistake, line)),
+        _ => None,
+    });
+    alone.filter(|(_, line)| is_missing(line)).take(MOST_MISSING).find_map(|(mistake, line)| {
+        let found = [FoundMistake { id: mistake.id.clone(), form: 0, parameter: None }];
+        let repaired = inside::only_change_beside(evidence, &found, RepairAim::Slip)?;
+        let mut lines = worth::charged(assignment, &terms, &repaired);
+        lines.retain(|own| *own != line.id);
+        let missing = (vec![line.id.clone()], Repaired::of(mistake.clone()));
+        (!lines.is_empty()).then(|| Cause::Repaired(vec![missing, (lines, repaired)]))
+    })
+}
+
+/// The first place of a mistake, where the text computes all that the lines judge: what it makes of that is not what it should be.
+fn made_otherwise(evidence: &Evidence<'_>, terms: &[TermJudgement], findings: &[Finding]) -> Option<Cause> {
+    let assignment = evidence.assignment;
+    let wrong: Vec<&TermJudgement> = terms.iter().filter(|term| !term.is_right()).collect();
+    let first = findings.first().filter(|_| assignment.is_told_by_features() && !wrong.is_empty())?;
+    let computed = inside::computed_lines(evidence);
+    if !wrong.iter().all(|term| computed.contains(&term.line)) {
+        return None;
+    }
+    let mistake = assignment.repaired(Operator::Otherwise, None, false);
+    let repaired = Repaired { located: Some(first.located()), ..Repaired::of(mistake) };
+    Some(Cause::Repaired(vec![(wrong.into_iter().map(|term| term.line.clone()).collect(), repaired)]))
 }
 
 /// That parts are missing: a sum at the one place of a mistake lacks terms, each of which a line judges, and is right otherwise; or

@@ -103,7 +103,7 @@ fn of_colour(assignment: &Assignment, terms: &[TermJudgement], repaired: &Repair
         assignment.fixed.iter().any(|fixed| fixed.stage == Stage::Fragment)
             && assignment.interface.outputs.iter().any(|output| output.name == **name)
     };
-    let output = repaired.located.name.as_deref().filter(is_read);
+    let output = repaired.located.as_ref().and_then(|located| located.name.as_deref()).filter(is_read);
     let name = output.or(definition(&repaired.mistake.id));
     // A change within what lines judge is of these.
     let is_of_one_line = || name.is_some_and(|name| assignment.is_of_one_line(name));

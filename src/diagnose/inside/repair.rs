@@ -144,7 +144,7 @@ impl Search<'_, '_> {
 
     /// The one slip of the text without which all is right.
     pub fn slip(&self, findings: &[Finding]) -> Option<Located> {
-        Some(self.only(findings, RepairAim::Slip)?.located)
+        self.only(findings, RepairAim::Slip)?.located
     }
 
     /// The one change of a kind by which all is right.

@@ -90,7 +90,7 @@ impl<'f> Blanks<'f> {
                 let of_id = || repairs.iter().filter(|(_, repaired)| repaired.mistake.id == id);
                 let own = of_id().find(|(lines, _)| lines.contains(&line.id)).or(of_id().next());
                 let repaired = own.map(|(_, repaired)| repaired);
-                blanks.place(evidence, mistake, repaired.map(|repaired| repaired.located.clone()));
+                blanks.place(evidence, mistake, repaired.and_then(|repaired| repaired.located.clone()));
                 if let Some([expected, found]) = repaired.and_then(|repaired| repaired.numbers.clone()) {
                     blanks.values.extend([("expected", expected), ("found", found)]);
                 }

@@ -61,7 +61,7 @@ impl Search<'_, '_> {
         Some(Repaired {
             mistake,
             operator: Some(operator),
-            located: Located { line: repair.line, name, role, stage: Some(*stage) },
+            located: Some(Located { line: repair.line, name, role, stage: Some(*stage) }),
             texts: repair.texts.clone(),
             numbers: None,
             lines: if is_of_loop { Vec::new() } else { self.lines_that_it_is_in(program, &trace, repair.mistake) },
@@ -169,16 +169,10 @@ impl Search<'_, '_> {
         let written =
             self.texts(finding.stage).map_or_else(String::new, |(_, source)| source.line(finding.line).into());
         Repaired {
-            mistake,
-            operator: None,
-            located: finding.located(),
+            located: Some(finding.located()),
             texts: [written, String::new()],
-            numbers: None,
-            lines: Vec::new(),
-            moves: false,
             touches: finding.touches.clone(),
-            terms: Vec::new(),
-            written_over: Vec::new(),
+            ..Repaired::of(mistake)
         }
     }
 

@@ -13,8 +13,8 @@ pub(in crate::diagnose) struct Repaired {
     pub mistake: Mistake,
     /// What kind of mistake that is; none of one that the homework names.
     pub operator: Option<Operator>,
-    /// Where it is.
-    pub located: Located,
+    /// Where it is; none of what the text has nothing of.
+    pub located: Option<Located>,
     /// What is written there, and what belongs there.
     pub texts: [String; 2],
     /// What its value should be at a place that shows it, and what it is there, where that says more than the mistake.
@@ -32,11 +32,28 @@ pub(in crate::diagnose) struct Repaired {
 }
 
 impl Repaired {
+    /// A mistake of which no more is known.
+    pub fn of(mistake: Mistake) -> Self {
+        Self {
+            mistake,
+            operator: None,
+            located: None,
+            texts: Default::default(),
+            numbers: None,
+            lines: Vec::new(),
+            moves: false,
+            touches: Vec::new(),
+            terms: Vec::new(),
+            written_over: Vec::new(),
+        }
+    }
+
     /// Whether nothing is left of what an earlier change put there.
     pub(super) fn undoes(&self, earlier: &Self) -> bool {
         let [before, after] = &self.texts;
         let added = &earlier.texts[1];
-        let is_same_place = self.located.stage == earlier.located.stage && self.located.line == earlier.located.line;
+        let place = |own: &Self| own.located.as_ref().map(|located| (located.stage, located.line));
+        let is_same_place = place(self) == place(earlier);
         is_same_place && !added.is_empty() && before.contains(added.as_str()) && !after.contains(added.as_str())
     }
 
@@ -71,10 +88,11 @@ impl Repaired {
     }
 
     /// What a teacher is shown of it.
-    pub fn shown(&self, evidence: &Evidence<'_>) -> report::Repair {
+    pub fn shown(&self, evidence: &Evidence<'_>) -> Option<report::Repair> {
         let [written, right] = self.texts.clone();
-        let file = evidence.text(self.located.stage).0.facts.name.clone();
-        report::Repair { mistake: self.mistake.id.clone(), file, line: self.located.line, written, right }
+        let Located { stage, line, .. } = *self.located.as_ref()?;
+        let file = evidence.text(stage).0.facts.name.clone();
+        Some(report::Repair { mistake: self.mistake.id.clone(), file, line, written, right })
     }
 }
 

@@ -23,26 +23,34 @@ impl Search<'_, '_> {
 
     /// Whether a program is right at every judging probe, and not elsewhere another one.
     fn holds_everywhere(&self, program: &TracedProgram) -> bool {
-        let variant = (!self.others.is_empty()).then(|| self.assignment.variant(self.others));
-        // A whole file in place of the solution is no variant.
-        if matches!(variant, Some(None)) {
+        let variant = if self.others.is_empty() { None } else { self.assignment.variant(self.others) };
+        // What is no variant of the definitions is another program.
+        let with_others = match &variant {
+            None if !self.others.is_empty() => self.assignment.traced_with(self.others),
+            _ => None,
+        };
+        if !self.others.is_empty() && variant.is_none() && with_others.is_none() {
             return false;
         }
-        let colour = |place: &Place<'_>| match variant.as_ref().and_then(Option::as_ref) {
-            Some(variant) => variant.evaluate(place.uniforms, &place.probe.attributes).colour(),
-            None => place.probe.colour,
-        };
         let all = [self.evidence.probes, self.evidence.fresh.probes];
         let [judging, fresh] = all.map(|probes| {
             let places = Place::all(probes);
             let seen = self.shown(program, &places, FUEL_OF_TRACE)?;
-            let is_right = |(place, (own, position)): (&Place<'_>, (&DVec3, &DVec4))| {
+            let wanted: Vec<DVec3> = match (&variant, &with_others) {
+                (Some(variant), _) => {
+                    let colour = |place: &Place<'_>| variant.evaluate(place.uniforms, &place.probe.attributes).colour();
+                    places.iter().map(colour).collect()
+                }
+                (None, Some(program)) => self.shown(program, &places, FUEL_OF_TRACE)?.colours,
+                (None, None) => places.iter().map(|place| place.probe.colour).collect(),
+            };
+            let is_right = |((place, wanted), (own, position)): ((&Place<'_>, &DVec3), (&DVec3, &DVec4))| {
                 let largest = place.probe.position.abs().max_element().max(f64::MIN_POSITIVE);
                 let is_there = self.assignment.equation.reads() != Reads::Attributes
                     || (*position - place.probe.position).abs().max_element() <= POSITION_TOLERANCE * largest;
-                is_colour(colour(place), *own) && is_there
+                is_colour(*wanted, *own) && is_there
             };
-            let pairs = places.iter().zip(seen.colours.iter().zip(&seen.positions));
+            let pairs = places.iter().zip(&wanted).zip(seen.colours.iter().zip(&seen.positions));
             Some(pairs.map(is_right).collect::<Vec<bool>>())
         });
         let (Some(judging), Some(fresh)) = (judging, fresh) else { return false };
