@@ -11,7 +11,7 @@ pub use bench::Bench;
 pub use handed_over::ToldByOutputs;
 
 use crate::equation::Reads;
-use crate::interpreter::{Interpolation, Program, ProgramVariable, Scalar, Stage};
+use crate::interpreter::{Interpolation, Program, ProgramVariable, Scalar, Stage, UndefinedCause};
 use crate::pipeline::{Pipeline, Varying};
 use crate::probes::{Probe, ProbeSet};
 use crate::{Assignment, Text, Value};
@@ -50,6 +50,8 @@ pub struct Seen {
     pub colours: Vec<DVec3>,
     /// The position of the vertex, or of the triangle's first corner, where a vertex stage is handed in.
     pub positions: Vec<DVec4>,
+    /// Why the first colour is undefined that is, and the stage whose text does it.
+    pub undefined: Option<(Stage, UndefinedCause)>,
 }
 
 impl Assignment {

@@ -7,11 +7,13 @@ use super::Evidence;
 use super::columns::is_colour;
 use super::locate::{Located, TracedProbes, Words, is_handed_out, last_position};
 use super::trials::{StageChanges, place};
+use crate::language::Text;
 use crate::report::AdviceLine;
 use crate::translate::plain_lines;
 use glam::{DVec3, DVec4};
 use reference::Assignment;
 use reference::advice::Variation;
+use reference::interpreter::Undefined;
 use reference::probes::ProbeSet;
 use reference::traced::{Bench, Place, Seen, TracedProgram};
 use std::cell::LazyCell;
@@ -52,8 +54,8 @@ pub fn beyond(assignment: &Assignment, probes: &ProbeSet) -> Vec<Beyond> {
 
 /// The advice for a right answer, at most one piece for a line.
 pub(super) fn find(evidence: &Evidence<'_>) -> Vec<AdviceLine> {
-    let mut found: Vec<AdviceLine> = Vec::new();
-    if evidence.beyond.is_empty() || !is_defined(evidence) {
+    let mut found: Vec<AdviceLine> = undefined(evidence).into_iter().collect();
+    if !found.is_empty() || evidence.beyond.is_empty() || !is_defined(evidence) {
         return found;
     }
     let usual = LazyCell::new(|| TracedProbes::new(evidence, evidence.assignment));
@@ -63,6 +65,36 @@ pub(super) fn find(evidence: &Evidence<'_>) -> Vec<AdviceLine> {
         }
     }
     found
+}
+
+/// A result that GLSL leaves open, on which the colour depends: this driver has one that is right, and another need not.
+fn undefined(evidence: &Evidence<'_>) -> Option<AdviceLine> {
+    let places = Place::all(evidence.probes);
+    let (stage, cause) = seen(evidence.assignment, evidence.traced?, &places)?.undefined?;
+    // These are the text's own. The others come from where a probe lies, or drivers agree on them.
+    let is_of_the_text = matches!(
+        cause.what,
+        Undefined::Uninitialised
+            | Undefined::NoResult
+            | Undefined::Index
+            | Undefined::Power
+            | Undefined::Domain
+            | Undefined::Division
+            | Undefined::Bounds
+    );
+    let (_, source) = evidence.sources.iter().find(|(own, _)| *own == stage).filter(|_| is_of_the_text)?;
+    let ((en, ja), line) = (cause.what.words(), cause.line);
+    let message = Text::new(
+        format!(
+            "The colour depends on what GLSL leaves undefined on line {line}: {en}. The driver here gives what is right, and another one \
+             may give something else."
+        ),
+        format!(
+            "{line} 行目に、GLSL では結果が決まらない計算があり、色がそれに依存しています: {ja}。ここのドライバーでは正しい結果になりましたが、\
+             別のドライバーでは違う結果になることがあります。"
+        ),
+    );
+    Some(AdviceLine { id: "undefined".into(), message, file: source.facts.name.clone(), line: Some(line) })
 }
 
 /// Whether the interpreter finds the answer right, as the driver does. What GLSL leaves undefined is no matter of advice.

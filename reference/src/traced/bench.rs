@@ -5,7 +5,7 @@ use super::{Place, Seen, TracedProgram};
 use crate::Assignment;
 use crate::equation::{DISCARDED, Reads};
 use crate::interpreter::trace::{Trace, ValueChange};
-use crate::interpreter::{Outputs, Prepared, Stage};
+use crate::interpreter::{Outputs, Prepared, Stage, Undefined, UndefinedCause};
 use crate::pipeline::{POSITION, positions, scalars};
 use crate::probes::{FragmentInputs, Spot, handed_at};
 use glam::{DVec3, DVec4};
@@ -99,6 +99,7 @@ impl<'p> Bench<'p> {
     fn go(&mut self, run: &mut dyn FnMut(Stage, &mut Prepared<'p>) -> Option<Outputs>) -> Option<Seen> {
         let count = self.spots.len();
         let mut positions = vec![DVec4::W; count];
+        let mut undefined = None;
         if let Some(vertex) = &mut self.vertex {
             let outputs = run(Stage::Vertex, vertex)?;
             let corners = if self.reads == Reads::Attributes { 1 } else { 3 };
@@ -110,8 +111,10 @@ impl<'p> Bench<'p> {
             if self.reads == Reads::Attributes {
                 let columns = self.columns(&outputs);
                 let colours = (0..count).map(|lane| colour(&columns, lane)).collect();
-                return Some(Seen { colours, positions });
+                let undefined = undefined_colour(&outputs, self.colour, 0..count);
+                return Some(Seen { colours, positions, undefined: undefined.map(|cause| (Stage::Vertex, cause)) });
             }
+            undefined = outputs.outputs.iter().find_map(|output| output.first_undefined(|_| true));
             self.hand_over(&outputs)?;
         }
         let outputs = run(Stage::Fragment, self.fragment.as_mut()?)?;
@@ -124,7 +127,14 @@ impl<'p> Bench<'p> {
                 if channel.is_nan() { channel } else { channel.clamp(0.0, 1.0) }
             }),
         };
-        Some(Seen { colours: (0..count).map(shown).collect(), positions })
+        let is_kept = |lane: &usize| !outputs.discarded[*lane];
+        let lanes = (0..count).map(|probe| probe * self.each).filter(is_kept);
+        let undefined = undefined_colour(&outputs, self.colour, lanes).map(|cause| match undefined {
+            // What the vertex stage hands over is no number.
+            Some(before) if cause.what == Undefined::NotANumber => (Stage::Vertex, before),
+            _ => (Stage::Fragment, cause),
+        });
+        Some(Seen { colours: (0..count).map(shown).collect(), positions, undefined })
     }
 
     fn columns(&self, outputs: &Outputs) -> Vec<Vec<f64>> {
@@ -158,6 +168,17 @@ impl<'p> Bench<'p> {
         }
         Some(())
     }
+}
+
+/// Why the colour of the first of these lanes is undefined that is.
+fn undefined_colour(
+    outputs: &Outputs,
+    colour: usize,
+    mut lanes: impl Iterator<Item = usize>,
+) -> Option<UndefinedCause> {
+    let colour = outputs.outputs.get(colour)?;
+    let channels = colour.values.len().min(3);
+    lanes.find_map(|lane| (0..channels).find_map(|channel| colour.undefined(channel, lane)))
 }
 
 fn colour(columns: &[Vec<f64>], lane: usize) -> DVec3 {

@@ -96,7 +96,7 @@ fn an_accepted_answer_that_cannot_be_right_is_refused() {
         "other.vert, line 1: `gain` is not among the inputs and uniforms of assignment.toml: remove it"
     );
     let undefined = "other.vert, at t = 0: the colour or the position is undefined, or no number: look at divisions, \
-                     roots, powers, branches, `normalize` of nothing, and `smoothstep` whose first edge is not the smaller one";
+                     roots, powers, branches, loops that do not end, `normalize` of nothing, and `smoothstep` whose first edge is not the smaller one";
     assert_eq!(error("out vec4 vc; void main() { vc = vec4(1.0); }"), undefined);
 }
 
