@@ -187,9 +187,16 @@ fn result(file: &HintContext<'_>, name: Lexeme<'_>, types: impl Fn() -> Option<V
         "dot" | "length" | "distance" | "determinant" => Some(Numeric { base: types.first()?.base, ..Numeric::FLOAT }),
         "step" | "smoothstep" => types.last().copied(),
         "transpose" => types.first().map(|ty| Numeric { columns: ty.rows, rows: ty.columns, ..*ty }),
-        "texture" | "outerProduct" | "any" | "all" | "not" | "equal" | "notEqual" | "lessThan" | "greaterThan" => None,
+        "outerProduct" | "any" | "all" | "not" | "equal" | "notEqual" => None,
+        other
+            if ["tex", "pack", "unpack", "bit", "find", "lessThan", "greaterThan"]
+                .iter()
+                .any(|own| other.starts_with(own)) =>
+        {
+            None
+        }
         // A function of one size for all returns that size; integers become floats on the way.
-        known if vocabulary::is_function(known) => {
+        known if vocabulary::is_function(file.interface.stage, known) => {
             let float = |ty: &Numeric| if matches!(ty.base, 'i' | 'u') { Numeric { base: 'f', ..*ty } } else { *ty };
             types.first().map(float)
         }

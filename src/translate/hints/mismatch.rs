@@ -239,7 +239,9 @@ fn form(file: &HintContext<'_>, name: &str) -> Option<Text> {
         "transpose" | "inverse" | "determinant" => ("takes one matrix", "行列を 1 つ取ります"),
         "step" => ("takes an edge and a value of the same type", "しきい値と値を同じ型で取ります"),
         "smoothstep" => ("takes two edges and a value", "2 つのしきい値と値を取ります"),
-        _ if vocabulary::is_function(name) => ("does not take these types", "この型の引数を取りません"),
+        _ if vocabulary::is_function(file.interface.stage, name) => {
+            ("does not take these types", "この型の引数を取りません")
+        }
         _ => return None,
     };
     Some(Text::new(format!("`{name}` {en}."), format!("`{name}` は{ja}。")))

@@ -31,7 +31,7 @@ pub fn locate(file: &HintContext<'_>, entry: &LogEntry<'_>, offset: usize) -> us
 
 /// Whether `name` is a function, a type or a variable that can be called or indexed by its name at least.
 pub fn is_callable(file: &HintContext<'_>, name: &str) -> bool {
-    let known = vocabulary::is_function(name) || vocabulary::is_type(name) || name.is_empty();
+    let known = vocabulary::is_function(file.interface.stage, name) || vocabulary::is_type(name) || name.is_empty();
     let declared = file.declarations.iter().any(|d| d.name == name && d.role != DeclarationKind::Function);
     let function = file.declarations.iter().any(|d| d.name == name && d.role == DeclarationKind::Function);
     known || declared || function
@@ -47,7 +47,7 @@ pub fn explain(file: &HintContext<'_>, finding: &CompilerMessage<'_, '_>) -> Opt
     if finding.unknown_function {
         return Some(unknown_function(file, finding, name));
     }
-    if message.starts_with("no matching overloaded") && !vocabulary::is_function(name) {
+    if message.starts_with("no matching overloaded") && !vocabulary::is_function(file.interface.stage, name) {
         return defined_later(file, finding, name);
     }
     if message.starts_with("can't use function syntax on variable") {
@@ -73,11 +73,12 @@ pub fn explain(file: &HintContext<'_>, finding: &CompilerMessage<'_, '_>) -> Opt
 
 fn undeclared(file: &HintContext<'_>, finding: &CompilerMessage<'_, '_>, name: &str) -> Diagnostic {
     let next = file.code.get(finding.index + 1);
-    let is_type = next.is_some_and(|next| next.kind == LexemeKind::Word) && !vocabulary::is_function(name);
+    let is_type =
+        next.is_some_and(|next| next.kind == LexemeKind::Word) && !vocabulary::is_function(file.interface.stage, name);
     if file.word(Some(finding.index)) == name && is_type {
         return unknown_type(file, finding.index);
     }
-    if vocabulary::is_function(name) {
+    if vocabulary::is_function(file.interface.stage, name) {
         let text = Text::new(
             format!("`{name}` is a function: its arguments stand in parentheses `( )`."),
             format!("`{name}` は関数です。引数を括弧 `( )` で囲んでください。"),
@@ -125,7 +126,9 @@ fn unknown_function(file: &HintContext<'_>, finding: &CompilerMessage<'_, '_>, n
     };
     let handed_out = || file.interface.functions.iter().map(String::as_str);
     // Of names that are as near, a student's own is meant rather than one of GLSL.
-    let nearest = || vocabulary::nearest(name, functions().chain(handed_out()).chain(vocabulary::callables()));
+    let nearest = || {
+        vocabulary::nearest(name, functions().chain(handed_out()).chain(vocabulary::callables(file.interface.stage)))
+    };
     let hint = suggestions::from_elsewhere(file, name)
         .or_else(otherwise)
         .or_else(|| handed_out().any(|own| own == name).then(|| suggestions::deleted_function(name)))

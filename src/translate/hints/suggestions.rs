@@ -5,12 +5,17 @@ use super::declarations::DeclaredName;
 use super::file::HintContext;
 use super::vocabulary::{self, Instead, Origin};
 use crate::language::Text;
-use crate::translate::Variable;
+use crate::translate::{Stage, Variable};
 
 pub fn hint_for_variable(file: &HintContext<'_>, finding: &CompilerMessage<'_, '_>, name: &str) -> Text {
     let offset = file.code.get(finding.index).map_or(file.text.len(), |token| token.start);
     let visible = || file.declarations.iter().filter(|d| d.is_visible(offset)).map(|d| d.name);
-    let known = || visible().chain(interface_names(file)).chain(vocabulary::variables()).chain(["true", "false"]);
+    let known = || {
+        visible()
+            .chain(interface_names(file))
+            .chain(vocabulary::variables(file.interface.stage))
+            .chain(["true", "false"])
+    };
     let assigned = file.statement(finding.index) == finding.index && file.word(Some(finding.index + 1)) == "=";
     let used_again = file.code.iter().filter(|token| token.text == name).count() > 1;
     from_elsewhere(file, name)
@@ -128,9 +133,10 @@ fn attributes(file: &HintContext<'_>) -> Text {
         }
     };
     let (en, ja): (Vec<_>, Vec<_>) = file.interface.inputs.iter().map(name).unzip();
+    let (own_en, own_ja) = inputs_of(file.interface.stage);
     Text::new(
-        format!("The attributes of this assignment are {}: which of them carries what you need?", en.join(" and ")),
-        format!("この課題の頂点属性は {} です。必要な値がどれに入っているか確かめてください。", ja.join("、")),
+        format!("The {own_en} of this assignment are {}: which of them carries what you need?", en.join(" and ")),
+        format!("この課題の{own_ja}は {} です。必要な値がどれに入っているか確かめてください。", ja.join("、")),
     )
 }
 
@@ -140,6 +146,13 @@ const TEXTS: [&str; 3] = ["string", "String", "char"];
 /// What to say about a word of an older GLSL or of another language.
 pub fn from_elsewhere(file: &HintContext<'_>, name: &str) -> Option<Text> {
     let (origin, instead) = vocabulary::foreign(name)?;
+    let stage = file.interface.stage;
+    if vocabulary::is_built_in(stage, name) {
+        return None;
+    }
+    let is_output = origin == Origin::Fragment;
+    // In a fragment shader they are the outputs of long ago.
+    let origin = if stage == Stage::Fragment && is_output { Origin::OldGlsl } else { origin };
     let (en, ja) = match origin {
         Origin::OldGlsl => ("GLSL before version 1.40", "1.40 より前の古い GLSL"),
         Origin::Hlsl => ("HLSL", "HLSL"),
@@ -157,25 +170,47 @@ pub fn from_elsewhere(file: &HintContext<'_>, name: &str) -> Option<Text> {
             format!("{}。GLSL には文字や文字列の型がなく、扱えるのは数と真偽値だけです。", from.ja),
         ),
         Instead::Nothing => Text::new(format!("{}.", from.en), format!("{}。", from.ja)),
-        Instead::Interface if origin == Origin::Fragment => {
-            let outputs: Vec<_> = file.interface.outputs.iter().map(|output| format!("`{}`", output.name)).collect();
-            let output = outputs.join(", ");
-            Text::new(
-                format!("{}. This vertex shader hands its result on in {output}.", from.en),
-                format!("{}。このバーテックスシェーダの出力変数は {output} です。", from.ja),
-            )
+        Instead::Interface if is_output => {
+            let (en, ja) = match stage {
+                Stage::Vertex => ("vertex", "バーテックス"),
+                Stage::Fragment => ("fragment", "フラグメント"),
+            };
+            match list(&file.interface.outputs).as_str() {
+                "" => Text::new(
+                    format!("{}. Declare an output of your own, outside `main`: `out vec4 …;`.", from.en),
+                    format!("{}。`main` の外で `out vec4 …;` と出力変数を宣言してください。", from.ja),
+                ),
+                output => Text::new(
+                    format!("{}. This {en} shader hands its result on in {output}.", from.en),
+                    format!("{}。この{ja}シェーダの出力変数は {output} です。", from.ja),
+                ),
+            }
         }
         Instead::Interface => {
-            let list = |variables: &[Variable]| {
-                variables.iter().map(|variable| format!("`{}`", variable.name)).collect::<Vec<_>>().join(", ")
-            };
             let (inputs, uniforms) = (list(&file.interface.inputs), list(&file.interface.uniforms));
+            let (en, ja) = inputs_of(stage);
+            let (of_inputs_en, of_inputs_ja) = match inputs.as_str() {
+                "" => (String::new(), String::new()),
+                inputs => (format!("the {en} are {inputs}, "), format!("{ja}は {inputs}、")),
+            };
             Text::new(
-                format!("{}. Here the attributes are {inputs}, the matrices {uniforms}.", from.en),
-                format!("{}。この課題の頂点属性は {inputs}、行列は {uniforms} です。", from.ja),
+                format!("{}. Here {of_inputs_en}the uniforms are {uniforms}.", from.en),
+                format!("{}。この課題の{of_inputs_ja}ユニフォーム変数は {uniforms} です。", from.ja),
             )
         }
     })
+}
+
+/// What the inputs of a stage are called.
+fn inputs_of(stage: Stage) -> (&'static str, &'static str) {
+    match stage {
+        Stage::Vertex => ("attributes", "頂点属性"),
+        Stage::Fragment => ("inputs", "入力変数"),
+    }
+}
+
+fn list(variables: &[Variable]) -> String {
+    variables.iter().map(|variable| format!("`{}`", variable.name)).collect::<Vec<_>>().join(", ")
 }
 
 /// For a word that cannot be a name.

@@ -1,10 +1,12 @@
 //! The words of GLSL, and those of its relatives that students bring along.
 
-/// Types of GLSL that a vertex shader may name.
+use crate::translate::Stage;
+
+/// Types of GLSL that a shader may name.
 const TYPES: &str = "void bool int uint float double vec2 vec3 vec4 dvec2 dvec3 dvec4 bvec2 bvec3 bvec4 ivec2 ivec3 \
     ivec4 uvec2 uvec3 uvec4 mat2 mat3 mat4 mat2x2 mat2x3 mat2x4 mat3x2 mat3x3 mat3x4 mat4x2 mat4x3 mat4x4 dmat2 dmat3 \
     dmat4 dmat2x2 dmat2x3 dmat2x4 dmat3x2 dmat3x3 dmat3x4 dmat4x2 dmat4x3 dmat4x4 sampler1D sampler2D sampler3D \
-    samplerCube sampler2DShadow sampler2DArray samplerBuffer";
+    samplerCube sampler2DShadow sampler2DArray samplerCubeShadow isampler2D usampler2D samplerBuffer";
 
 /// Qualifiers of declarations.
 const QUALIFIERS: &str = "const in out inout uniform buffer attribute varying flat smooth noperspective centroid sample \
@@ -14,16 +16,24 @@ const QUALIFIERS: &str = "const in out inout uniform buffer attribute varying fl
 const KEYWORDS: &str = "if else for while do switch case default break continue return discard struct true false \
     precision subroutine coherent volatile restrict readonly writeonly";
 
-/// Built-in functions of a vertex shader.
+/// Built-in functions of every stage.
 const FUNCTIONS: &str = "radians degrees sin cos tan asin acos atan sinh cosh tanh asinh acosh atanh pow exp log exp2 log2 \
     sqrt inversesqrt abs sign floor trunc round roundEven ceil fract mod modf min max clamp mix step smoothstep isnan \
     isinf floatBitsToInt floatBitsToUint intBitsToFloat uintBitsToFloat fma frexp ldexp length distance dot cross \
     normalize faceforward reflect refract matrixCompMult outerProduct transpose determinant inverse lessThan \
     lessThanEqual greaterThan greaterThanEqual equal notEqual any all not texture textureLod textureSize texelFetch \
-    textureProj textureGrad textureOffset";
+    textureProj textureGrad textureOffset textureProjLod textureGather texelFetchOffset textureQueryLevels bitCount \
+    bitfieldExtract bitfieldInsert bitfieldReverse findLSB findMSB packUnorm2x16 unpackUnorm2x16 packHalf2x16 unpackHalf2x16 \
+    packUnorm4x8 unpackUnorm4x8";
+
+/// Those that only fragment shaders have.
+const FRAGMENT_FUNCTIONS: &str = "dFdx dFdy fwidth dFdxFine dFdyFine fwidthFine dFdxCoarse dFdyCoarse fwidthCoarse";
 
 /// Built-in variables of a vertex shader.
-const VARIABLES: &str = "gl_Position gl_PointSize gl_ClipDistance gl_VertexID gl_InstanceID";
+const VERTEX_VARIABLES: &str = "gl_Position gl_PointSize gl_ClipDistance gl_VertexID gl_InstanceID";
+
+/// Built-in variables of a fragment shader.
+const FRAGMENT_VARIABLES: &str = "gl_FragCoord gl_FrontFacing gl_PointCoord gl_FragDepth gl_ClipDistance gl_PrimitiveID gl_SampleID gl_SamplePosition";
 
 fn has(list: &str, word: &str) -> bool {
     list.split_ascii_whitespace().any(|known| known == word)
@@ -49,9 +59,14 @@ pub fn begins_statement(word: &str) -> bool {
     is_keyword(word) && !matches!(word, "true" | "false" | "else")
 }
 
-/// Whether `word` is a built-in function.
-pub fn is_function(word: &str) -> bool {
-    has(FUNCTIONS, word)
+/// Whether `word` is a built-in function of a stage.
+pub fn is_function(stage: Stage, word: &str) -> bool {
+    functions(stage).any(|known| known == word)
+}
+
+fn functions<'a>(stage: Stage) -> impl Iterator<Item = &'a str> {
+    let own: &'a str = if stage == Stage::Fragment { FRAGMENT_FUNCTIONS } else { "" };
+    [FUNCTIONS, own].into_iter().flat_map(str::split_ascii_whitespace)
 }
 
 /// All keywords and types, for finding the one that was meant.
@@ -61,15 +76,20 @@ pub fn keywords<'a>() -> impl Iterator<Item = &'a str> {
 }
 
 /// Built-in functions and types, which are called the same way.
-pub fn callables<'a>() -> impl Iterator<Item = &'a str> {
-    let lists: [&'a str; 2] = [FUNCTIONS, TYPES];
-    lists.into_iter().flat_map(str::split_ascii_whitespace)
+pub fn callables<'a>(stage: Stage) -> impl Iterator<Item = &'a str> {
+    let types: &'a str = TYPES;
+    functions(stage).chain(types.split_ascii_whitespace())
 }
 
-/// Built-in variables.
-pub fn variables<'a>() -> impl Iterator<Item = &'a str> {
-    let list: &'a str = VARIABLES;
+/// Built-in variables of a stage.
+pub fn variables<'a>(stage: Stage) -> impl Iterator<Item = &'a str> {
+    let list: &'a str = if stage == Stage::Fragment { FRAGMENT_VARIABLES } else { VERTEX_VARIABLES };
     list.split_ascii_whitespace()
+}
+
+/// Whether a stage has a function or variable of this name.
+pub fn is_built_in(stage: Stage, word: &str) -> bool {
+    is_function(stage, word) || variables(stage).any(|known| known == word)
 }
 
 /// Where a word that is no GLSL of today comes from.
@@ -190,7 +210,7 @@ mod tests {
 
     #[test]
     fn finds_what_was_meant() {
-        let known = || callables().chain(["iamb", "idiff", "l", "v", "cv", "pv"]);
+        let known = || callables(Stage::Vertex).chain(["iamb", "idiff", "l", "v", "cv", "pv"]);
         for (word, meant) in [
             ("Max", Some("max")),
             ("iamp", Some("iamb")),

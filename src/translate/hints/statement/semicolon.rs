@@ -63,7 +63,7 @@ fn goes_on(file: &HintContext<'_>, at: usize) -> bool {
     let token = file.code[at];
     let next = file.word(Some(at + 1));
     let operand = matches!(token.kind, LexemeKind::Word | LexemeKind::Number) && !vocabulary::is_keyword(token.text);
-    let value = vocabulary::is_function(token.text) && next == "(";
+    let value = vocabulary::is_function(file.interface.stage, token.text) && next == "(";
     value || (operand && matches!(next, "+" | "-" | "*" | "/" | ";" | ")" | ","))
 }
 
