@@ -232,6 +232,22 @@ impl Scene {
         self.moment_of(0, t, matrices)
     }
 
+    /// The same of what is drawn with this number.
+    pub(crate) fn moment_of_draw(&self, i: u32, t: f64, matrices: Matrices) -> Moment {
+        Moment { i, ..self.moment(t, matrices) }
+    }
+
+    /// How much the first view draws, each instance by itself.
+    pub(crate) fn count_of_draws(&self) -> u32 {
+        self.views.first().map_or(0, |view| view.draws.iter().map(|draw| draw.instances).sum())
+    }
+
+    /// What is drawn with this number in the first view.
+    pub(crate) fn drawn(&self, i: u32) -> Option<&Draw> {
+        let mut draws = self.views.first()?.draws.iter().flat_map(|draw| (0..draw.instances).map(move |_| draw));
+        draws.nth(i as usize)
+    }
+
     fn moment_of(&self, view: usize, t: f64, matrices: Matrices) -> Moment {
         let resolution = [f64::from(self.width), f64::from(self.height)];
         let pass = [DMat4::IDENTITY; 2];

@@ -73,8 +73,12 @@ impl Uniform {
     /// Whether it is another value in another window.
     pub(crate) fn follows_window(&self, moment: &Moment) -> bool {
         let [width, height] = moment.resolution;
-        let other = Moment { resolution: [2.0 * height, 3.0 * width], ..*moment };
-        matches!(self.feed, Feed::Expression(_)) && self.value(&other) != self.value(moment)
+        self.follows(moment, &Moment { resolution: [2.0 * height, 3.0 * width], ..*moment })
+    }
+
+    /// Whether it is another value at another moment of the same camera.
+    pub(crate) fn follows(&self, moment: &Moment, other: &Moment) -> bool {
+        matches!(self.feed, Feed::Expression(_)) && self.value(other) != self.value(moment)
     }
 }
 

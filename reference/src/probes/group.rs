@@ -22,10 +22,11 @@ impl Assignment {
             Feed::Role(role) => role.is_of_the_world(),
             feed => matches!(feed, Feed::Expression(_)),
         };
+        let i = self.random_draw(random, &self.scene.moment(t, matrices));
         if uniforms.iter().any(|uniform| is_of_the_world(&uniform.feed)) {
-            matrices = self.in_the_world(random, t, &matrices);
+            matrices = self.in_the_world(random, &self.scene.moment_of_draw(i, t, matrices));
         }
-        let mut moment = self.scene.moment(t, matrices);
+        let mut moment = self.scene.moment_of_draw(i, t, matrices);
         moment.resolution = self.random_window(random, &moment);
         if self.scene.pass.is_some() {
             moment.pass = self.random_pass(random, &matrices.model);
@@ -36,6 +37,15 @@ impl Assignment {
         };
         let uniforms = uniforms.iter().map(value).collect();
         ProbeGroup { matrices, t, uniforms, pass: moment.pass, window: moment.resolution }
+    }
+
+    /// The number of what is drawn, where a uniform hangs on it.
+    fn random_draw(&self, random: &mut Random, moment: &Moment) -> u32 {
+        let count = self.scene.count_of_draws();
+        let follows = |uniform: &Uniform| {
+            uniform.probe.is_none() && (1..count).any(|i| uniform.follows(moment, &Moment { i, ..*moment }))
+        };
+        if self.interface.uniforms.iter().any(follows) { random.below(count as usize) as u32 } else { 0 }
     }
 
     /// A window of another size, where a uniform that follows it may vary: fragments have to lie in the window that the program is
@@ -55,10 +65,9 @@ impl Assignment {
     }
 
     /// The camera in front of the homework's own model, turned and shifted: where that is stretched, so is this.
-    fn in_the_world(&self, random: &mut Random, t: f64, seen: &Matrices) -> Matrices {
-        let moment = self.scene.moment(t, *seen);
-        let own = self.scene.views.first().and_then(|view| view.draws.first());
-        let own = own.map_or(DMat4::IDENTITY, |draw| draw.model.at(&moment));
+    fn in_the_world(&self, random: &mut Random, moment: &Moment) -> Matrices {
+        let seen = &moment.matrices;
+        let own = self.scene.drawn(moment.i).map_or(DMat4::IDENTITY, |draw| draw.model.at(moment));
         let turned = DQuat::from_axis_angle(random.direction(), random.between(0.4, 2.7));
         let moved = DMat4::from_rotation_translation(turned, random.direction() * random.between(0.5, 3.0));
         // What the eye sees is as far away as without a world.
