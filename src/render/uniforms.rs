@@ -37,12 +37,11 @@ fn set(members: &HashMap<&str, &UniformMember>, bytes: &mut [u8], path: &str, ki
             }
         }
         _ => {
-            // The columns of a matrix of two rows lie in an array.
-            if matches!(kind, Type::Matrix(..))
-                && !members.contains_key(path)
-                && let Some((column, count)) = kind.element()
+            // The columns of a matrix may lie in an array, and each number of a vector by itself.
+            if !members.contains_key(path)
+                && let Some((element, count)) = kind.element()
             {
-                return set(members, bytes, path, &column.array(count), numbers);
+                return set(members, bytes, path, &element.array(count), numbers);
             }
             // An array without an index is its first element.
             let member = members.get(path).copied().or_else(|| members.get(format!("{path}[0]").as_str()).copied());

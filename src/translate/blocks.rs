@@ -1,16 +1,15 @@
 //! Blocks of uniforms that the homework lays out by `std140`: a program fills them byte by byte, as the homework declares them, whatever
 //! a student's shader calls their members.
 
-use super::interface::{LinkedInterface, place, unset_uniform};
+mod wording;
+
 use super::spirv::DeclaredUniform;
 use super::uniforms::{UniformBlock, UniformMember};
-use crate::diagnostic::{Diagnostic, DiagnosticStage};
-use crate::language::Text;
-use crate::source::Source;
 use naga::{ScalarKind, TypeInner, VectorSize};
 use reference::Assignment;
-use reference::interpreter::{BlockPlace, Scalar, Type, std140};
-use std::collections::{BTreeMap, HashMap};
+use reference::interpreter::{BlockPlace, Scalar, Type};
+use std::collections::HashMap;
+pub(super) use wording::{renamed, told};
 
 /// A scalar, vector or matrix in such a block, as the program fills it.
 #[derive(Clone, Debug)]
@@ -31,25 +30,81 @@ impl PlacedUniform {
             .collect()
     }
 
-    /// Its numbers as the bytes of the block hold them, a matrix column by column.
+    /// Its numbers where the bytes of the block hold them, a matrix column by column.
     fn members(&self) -> Vec<UniformMember> {
-        let member = |path: String, offset: u32, scalar: Scalar, count: u8| UniformMember {
+        let places = self.place.numbers(&self.kind);
+        let whole = |path: String, offset: u32, scalar: Scalar, count: u8| UniformMember {
             path,
             alias: None,
             offset,
             ty: inner(scalar, count),
         };
-        let begin = self.place.offset;
         match self.kind {
-            Type::Vector(scalar, count) => vec![member(self.path.clone(), begin, scalar, count)],
-            Type::Matrix(scalar, _, rows) => {
-                let starts = std140::numbers(&self.kind).into_iter().step_by(usize::from(rows)).enumerate();
-                starts
-                    .map(|(column, at)| member(format!("{}[{column}]", self.path), begin + at, scalar, rows))
-                    .collect()
+            Type::Vector(scalar, count) => vec![whole(self.path.clone(), self.place.offset, scalar, count)],
+            Type::Matrix(scalar, _, rows) if !self.place.is_row_major => {
+                let starts = places.into_iter().step_by(usize::from(rows)).enumerate();
+                starts.map(|(column, at)| whole(format!("{}[{column}]", self.path), at, scalar, rows)).collect()
             }
-            _ => Vec::new(),
+            _ => (0..places.len()).filter_map(|number| self.number(number, places[number])).collect(),
         }
+    }
+
+    /// One of its numbers, at this byte.
+    fn number(&self, number: usize, offset: u32) -> Option<UniformMember> {
+        let path = match self.kind {
+            Type::Vector(_, 1) => self.path.clone(),
+            Type::Vector(..) => format!("{}[{number}]", self.path),
+            Type::Matrix(_, _, rows) => {
+                format!("{}[{}][{}]", self.path, number / usize::from(rows), number % usize::from(rows))
+            }
+            _ => return None,
+        };
+        Some(UniformMember { path, alias: None, offset, ty: inner(self.kind.scalar()?, 1) })
+    }
+}
+
+/// A scalar, vector or matrix in a student's block.
+struct BlockPart<'b> {
+    declared: &'b DeclaredUniform,
+    /// What its numbers are as bits.
+    bits: (bool, u8),
+    /// Where each of them lies in the module, in the order of [`DeclaredUniform::places`]: columns after columns.
+    in_module: Vec<u32>,
+}
+
+impl<'b> BlockPart<'b> {
+    /// Those of a block.
+    fn all(block: &UniformBlock, declared: &'b [DeclaredUniform]) -> Vec<Self> {
+        let is_inside = |own: &&DeclaredUniform| {
+            own.is_in_block && own.path.strip_prefix(&block.name).is_some_and(|rest| rest.starts_with('.'))
+        };
+        let part = |declared: &'b DeclaredUniform| {
+            // The columns of a matrix of two rows lie in an array.
+            let is_its = |member: &&UniformMember| {
+                member.path.strip_prefix(&declared.path).is_some_and(|rest| rest.is_empty() || rest.starts_with('['))
+            };
+            let members: Vec<_> = block.members.iter().filter(is_its).filter_map(numbers_of).collect();
+            let bits = members.first()?.0;
+            let in_module: Vec<u32> = members.into_iter().flat_map(|(_, places)| places).collect();
+            (in_module.len() == declared.places.len()).then_some(Self { declared, bits, in_module })
+        };
+        declared.iter().filter(is_inside).filter_map(part).collect()
+    }
+
+    /// Whether the module has it where OpenGL reads it.
+    fn is_in_place(&self) -> bool {
+        self.in_module == self.declared.places
+    }
+
+    /// The program's values of its numbers, each where the module reads it.
+    fn filled(&self, known: &[&PlacedUniform]) -> Vec<UniformMember> {
+        let of_number = |(at, offset): (&u32, &u32)| {
+            known.iter().find_map(|own| {
+                let number = own.place.numbers(&own.kind).iter().position(|place| place == at)?;
+                own.number(number, *offset)
+            })
+        };
+        self.declared.places.iter().zip(&self.in_module).filter_map(of_number).collect()
     }
 }
 
@@ -79,6 +134,8 @@ pub struct Misplaced {
     there: Option<String>,
     /// Whether what lies there is no value of such a type, or the program's value of that name lies elsewhere and nothing does here.
     is_wrong: bool,
+    /// Whether it lies there with rows and columns exchanged.
+    is_transposed: bool,
 }
 
 /// What numbers of a kind are as bits.
@@ -87,48 +144,68 @@ fn kind_of(kind: ScalarKind, width: u8) -> (bool, u8) {
 }
 
 /// Lets the program fill the blocks as the homework lays them out; what lies elsewhere in a student's, the worst of each block.
-pub(super) fn lay_out(blocks: &mut [UniformBlock], placed: &[PlacedUniform]) -> Vec<Misplaced> {
+pub(super) fn lay_out(
+    blocks: &mut [UniformBlock],
+    declared: &[DeclaredUniform],
+    placed: &[PlacedUniform],
+) -> Vec<Misplaced> {
     let mut all = Vec::new();
     for block in blocks.iter_mut().filter(|block| !block.is_default) {
         let known: Vec<&PlacedUniform> = placed.iter().filter(|own| own.place.block == block.name).collect();
         if known.is_empty() {
             continue;
         }
-        let found = misplaced(block, &known);
+        let parts = BlockPart::all(block, declared);
+        let found = misplaced(&block.name, &parts, &known);
         let worst = found.iter().find(|own| own.is_wrong).or_else(|| found.iter().find(|own| own.there.is_some()));
         match worst {
             Some(worst) => all.push(worst.clone()),
             None => all.extend(found),
         }
-        block.members = known.iter().flat_map(|own| own.members()).collect();
+        // A layout may say where a member lies, or that rows lie before columns. The module knows neither.
+        block.members = match parts.iter().all(BlockPart::is_in_place) {
+            true => known.iter().flat_map(|own| own.members()).collect(),
+            false => parts.iter().flat_map(|part| part.filled(&known)).collect(),
+        };
     }
     all
 }
 
-fn misplaced(block: &UniformBlock, known: &[&PlacedUniform]) -> Vec<Misplaced> {
+fn misplaced(block: &str, parts: &[BlockPart<'_>], known: &[&PlacedUniform]) -> Vec<Misplaced> {
     let mut numbers: HashMap<u32, (&str, (bool, u8))> = HashMap::new();
     for own in known {
         let TypeInner::Scalar(scalar) = inner(own.kind.scalar().unwrap_or(Scalar::Float), 1) else { continue };
         let bits = kind_of(scalar.kind, scalar.width);
-        numbers.extend(
-            std140::numbers(&own.kind).into_iter().map(|at| (own.place.offset + at, (own.path.as_str(), bits))),
-        );
+        numbers.extend(own.place.numbers(&own.kind).into_iter().map(|at| (at, (own.path.as_str(), bits))));
     }
     let mut found = Vec::new();
-    for member in &block.members {
-        let Some((bits, places)) = numbers_of(member) else { continue };
-        let hits: Vec<(&str, (bool, u8))> = places.iter().filter_map(|at| numbers.get(at).copied()).collect();
-        let is_name = |path: &str| member.paths().any(|own| own == path || own.starts_with(&format!("{path}[")));
-        let other = hits.iter().find(|(_, there)| *there != bits);
+    for BlockPart { declared, bits, .. } in parts {
+        let hits: Vec<(&str, (bool, u8))> = declared.places.iter().filter_map(|at| numbers.get(at).copied()).collect();
+        let is_name = |path: &str| path == declared.path || declared.own_name() == Some(path);
+        let other = hits.iter().find(|(_, there)| there != bits);
         let is_known = known.iter().any(|own| is_name(&own.path));
+        let same = known.iter().find(|own| own.path == hits.first().map_or("", |(path, _)| path));
+        let is_transposed = same.is_some_and(|own| {
+            let [mut own, mut theirs] = [own.place.numbers(&own.kind), declared.places.clone()];
+            let differs = own != theirs;
+            own.sort_unstable();
+            theirs.sort_unstable();
+            differs && own == theirs
+        });
         let (there, is_wrong) = match (other, hits.first()) {
             (Some((path, _)), _) => (Some(*path), true),
             (None, None) => (None, is_known),
-            (None, Some((path, _))) if is_known && !is_name(path) => (Some(*path), false),
+            (None, Some((path, _))) if is_transposed || is_known && !is_name(path) => (Some(*path), false),
             _ => continue,
         };
-        let own = member.alias.as_ref().unwrap_or(&member.path).clone();
-        found.push(Misplaced { block: block.name.clone(), own, there: there.map(str::to_owned), is_wrong });
+        let own = declared.own_name().unwrap_or(&declared.path).to_owned();
+        found.push(Misplaced {
+            block: block.to_owned(),
+            own,
+            there: there.map(str::to_owned),
+            is_wrong,
+            is_transposed,
+        });
     }
     found
 }
@@ -145,78 +222,4 @@ fn numbers_of(member: &UniformMember) -> Option<((bool, u8), Vec<u32>)> {
     let stride = rows.next_power_of_two() * width;
     let places = (0..columns).flat_map(|column| (0..rows).map(move |row| column * stride + row * width));
     Some((kind_of(scalar.kind, scalar.width), places.map(|at| member.offset + at).collect()))
-}
-
-/// Says it, with the place in the student's file; the errors aside.
-pub(super) fn told(misplaced: &[Misplaced], source: &Source, interface: &LinkedInterface) -> [Vec<Diagnostic>; 2] {
-    let [mut errors, mut notes] = [Vec::new(), Vec::new()];
-    for own in misplaced {
-        match (&own.there, own.is_wrong) {
-            (None, false) => notes.push(unset_uniform(source, &own.own, interface)),
-            (_, true) => errors.push(elsewhere(own, source)),
-            (Some(_), false) => notes.push(elsewhere(own, source)),
-        }
-    }
-    [errors, notes]
-}
-
-/// Says which blocks have another name than that by which a program finds them to fill them.
-pub(super) fn renamed(declared: &[DeclaredUniform], placed: &[PlacedUniform], source: &Source) -> Vec<Diagnostic> {
-    let block = |own: &DeclaredUniform| own.path.split('.').next().unwrap_or_default().to_owned();
-    let in_blocks = || declared.iter().filter(|own| own.is_in_block);
-    let mut found: BTreeMap<String, &str> = BTreeMap::new();
-    for own in in_blocks() {
-        let meant = placed.iter().find(|known| Some(known.path.as_str()) == own.own_name());
-        let is_there = |name: &str| in_blocks().any(|other| block(other) == name);
-        if let Some(name) = meant.map(|known| known.place.block.as_str()).filter(|name| !is_there(name)) {
-            found.insert(block(own), name);
-        }
-    }
-    let told = |(own, name): (String, &str)| {
-        let text = Text::new(
-            format!(
-                "the program finds the block `{name}` by its name, and `{own}` is another one: OpenGL leaves it empty"
-            ),
-            format!(
-                "プログラムはブロック `{name}` を名前で探します。`{own}` は別の名前なので、OpenGL では値が入りません"
-            ),
-        );
-        let diagnostic = place(Diagnostic::warning(DiagnosticStage::Interface, text), source, &own);
-        diagnostic.hint(Text::new(
-            format!("Call the block `{name}`, as in the handed-out file. The name of its instance is free."),
-            format!(
-                "ブロックの名前を、配布されたファイルと同じ `{name}` にしてください。インスタンスの名前は自由です。"
-            ),
-        ))
-    };
-    found.into_iter().map(told).collect()
-}
-
-fn elsewhere(misplaced: &Misplaced, source: &Source) -> Diagnostic {
-    let Misplaced { block, own, there, is_wrong } = misplaced;
-    let text = match there {
-        Some(there) if *is_wrong => Text::new(
-            format!("`{own}` lies in the block `{block}` where the program writes `{there}`, a value of another type"),
-            format!("`{own}` は、ブロック `{block}` の中で、プログラムが型の違う `{there}` を書き込む位置にあります"),
-        ),
-        Some(there) => Text::new(
-            format!("`{own}` lies in the block `{block}` where the program writes `{there}`, and has that value"),
-            format!(
-                "`{own}` は、ブロック `{block}` の中で、プログラムが `{there}` を書き込む位置にあり、その値になります"
-            ),
-        ),
-        None => Text::new(
-            format!("`{own}` lies in the block `{block}` where the program writes nothing"),
-            format!("`{own}` は、ブロック `{block}` の中で、プログラムが何も書き込まない位置にあります"),
-        ),
-    };
-    let diagnostic = match is_wrong {
-        true => Diagnostic::error(DiagnosticStage::Interface, text),
-        false => Diagnostic::warning(DiagnosticStage::Interface, text),
-    };
-    place(diagnostic, source, own).hint(Text::new(
-        "A `std140` block is filled byte by byte, as the handed-out file declares it: its members need that order and those types. Their names \
-         may be others.",
-        "`std140` のブロックには、配布されたファイルの宣言どおりにバイト単位で値が書き込まれます。メンバの順序と型は同じにしてください。名前は変えてもかまいません。",
-    ))
 }

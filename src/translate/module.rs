@@ -189,7 +189,7 @@ pub(super) fn build(
         }
     };
     let mut uniforms = bind_uniforms(&mut module);
-    let misplaced = blocks::lay_out(&mut uniforms, &interface.placed);
+    let misplaced = blocks::lay_out(&mut uniforms, &known.declared, &interface.placed);
     let mut inputs: Vec<StageVariable> = inputs.into_iter().map(|part| part.attribute).collect();
     // The compiler's automatic locations may collide with the student's own.
     (0..).zip(&mut inputs).for_each(|(location, input)| input.location = location);

@@ -172,3 +172,42 @@ fn a_block_is_filled_by_its_bytes_whatever_its_members_are_called() {
         said(&report).contains("`lightCount` lies in the block `Lights` where the program writes `lights[0].position`")
     );
 }
+
+/// A student's block may have another layout than the homework's: OpenGL reads the program's bytes by it.
+#[test]
+fn a_block_is_read_by_the_layout_that_the_student_declares() {
+    let block = "layout (std140) uniform Mix { float gain; mat3 mixing; mat2x3 tilt; } own;\n";
+    let computed = "colour = own.gain * (own.mixing * colour) + own.tilt * colour.xy;\n  tint = vec4(colour, 1.0)";
+    let values = "\n[[uniform]]\nname = \"Mix\"\nvalue = { gain = 0.8, mixing = [1, 0.1, 0, 0.2, 0.9, 0, 0, 0.3, 0.8], \
+                  tilt = [0.1, 0.2, 0, 0, 0.1, 0.05] }\n";
+    let copy = Copy::of("tests/homeworks/toon")
+        .replace("starter.frag", "uniform int tones;\n", &format!("uniform int tones;\n{block}"))
+        .replace("solution.frag", "uniform int tones;\n", &format!("uniform int tones;\n{block}"))
+        .replace("solution.frag", "tint = vec4(colour, 1.0)", computed);
+    let manifest = fs::read_to_string(copy.path(MANIFEST)).unwrap();
+    fs::write(copy.path(MANIFEST), manifest + values).unwrap();
+    let right = fs::read_to_string(copy.path("solution.frag")).unwrap();
+    let graded = |layout: &str, changes: &[[&str; 2]]| {
+        let text = right.replace(block, layout).replace("#version 330 core", "#version 440 core");
+        let text = changes.iter().fold(text, |text, [from, to]| text.replace(from, to));
+        let file = copy.path("toon.frag");
+        fs::write(&file, text).unwrap();
+        json(&file, &["--assignment", copy.folder().to_str().unwrap()])
+    };
+    let rows =
+        "layout (std140, row_major) uniform Mix { float gain; mat3 mixing; layout (column_major) mat2x3 tilt; } own;\n";
+    let mixed = ["own.mixing * colour", "colour * own.mixing"];
+    assert_eq!(graded(rows, &[mixed])["score"], 100.0);
+    let transposed = graded(rows, &[]);
+    assert_eq!(transposed["verdict"], "wrong");
+    let said = transposed["diagnostics"].to_string();
+    assert!(said.contains("`mixing` is read from its block row by row"), "{said}");
+    // Rows of two numbers, 16 bytes each, lie where columns of two do.
+    let default = "layout (std140, row_major) uniform;\nuniform Mix { float gain; mat3 mixing; mat3x2 turned; } own;\n";
+    let turned = ["own.tilt * colour.xy", "colour.xy * own.turned"];
+    assert_eq!(graded(default, &[mixed, turned])["score"], 100.0);
+    let offset = "layout (std140) uniform Mix { layout (offset = 64) mat2x3 tilt; } own;\n";
+    let written_in = [["own.gain", "0.8"], ["own.mixing", "mat3(1, 0.1, 0, 0.2, 0.9, 0, 0, 0.3, 0.8)"]];
+    assert_eq!(graded(offset, &written_in)["score"], 100.0);
+    assert_eq!(graded(&offset.replace("64", "96"), &written_in)["verdict"], "rejected");
+}

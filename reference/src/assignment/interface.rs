@@ -59,7 +59,9 @@ impl Uniform {
     /// Whether a variable of a program is this one: by its place in such a block, whatever it is called there, else by its name.
     pub fn is(&self, own: &ProgramVariable) -> bool {
         match (&self.place, &own.place) {
-            (Some(place), Some(own)) if place.block == own.block => place.offset == own.offset,
+            (Some(place), Some(own)) if place.block == own.block => {
+                (place.offset, place.is_row_major) == (own.offset, own.is_row_major)
+            }
             _ => self.path == own.name,
         }
     }

@@ -6,7 +6,7 @@ pub(super) mod literal;
 mod statement;
 
 use super::Refusal;
-use super::syntax::{Expression, Item, Name};
+use super::syntax::{Expression, Item, Name, Qualifiers};
 use super::text::{Token, TokenKind};
 use crate::text::{Text, both};
 use std::collections::HashSet;
@@ -19,7 +19,7 @@ const MAX_NESTING: usize = 256;
 /// # Errors
 /// It is not GLSL, or nested more deeply than this parser goes.
 pub fn parse(tokens: &[Token]) -> Result<Vec<Item>, Refusal> {
-    let mut parser = Parser { tokens, at: 0, depth: 0, functions: HashSet::new() };
+    let mut parser = Parser { tokens, at: 0, depth: 0, functions: HashSet::new(), blocks: Qualifiers::default() };
     let mut items = Vec::new();
     while parser.at < tokens.len() {
         if !parser.takes(";") {
@@ -34,7 +34,7 @@ pub fn parse(tokens: &[Token]) -> Result<Vec<Item>, Refusal> {
 /// # Errors
 /// It is not an expression, or more than one.
 pub fn parse_expression(tokens: &[Token], functions: HashSet<Name>) -> Result<Expression, Refusal> {
-    let mut parser = Parser { tokens, at: 0, depth: 0, functions };
+    let mut parser = Parser { tokens, at: 0, depth: 0, functions, blocks: Qualifiers::default() };
     let expression = parser.initialiser()?;
     if parser.at < tokens.len() {
         Err(parser.unexpected(both("the end of the expression", "式の終わり")))
@@ -54,6 +54,8 @@ struct Parser<'a> {
     depth: usize,
     /// Names of the functions that are declared so far: calling them may change a variable.
     functions: HashSet<Name>,
+    /// What `layout(…) uniform;` says of the blocks of uniforms that follow.
+    blocks: Qualifiers,
 }
 
 impl Parser<'_> {

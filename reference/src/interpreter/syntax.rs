@@ -83,8 +83,10 @@ pub struct Qualifiers {
     pub window: WindowCoordinates,
     /// Whether `layout(std140)` is among them.
     pub is_std140: bool,
-    /// Whether `layout` says where something lies, or that rows lie before columns.
-    pub is_placed: bool,
+    /// `layout(offset = …)` and `layout(align = …)`, where a number is written.
+    pub placed: [Option<u32>; 2],
+    /// Whether the rows of matrices lie before their columns, where a layout says it.
+    pub is_row_major: Option<bool>,
 }
 
 /// A type as it is written.

@@ -2,7 +2,7 @@
 
 use super::columns;
 use crate::assignment::{Interface, Uniform};
-use crate::interpreter::{BlockPlace, Program, ProgramVariable, Run, Scalar, Texture, Type, std140};
+use crate::interpreter::{Program, ProgramVariable, Run, Scalar, Texture, Type};
 use crate::{Assignment, Value};
 
 /// The values of all uniforms, in the interface's order, at each of some samples.
@@ -56,22 +56,25 @@ impl Interface {
         if let Some(place) = self.uniforms.iter().rposition(is_it) {
             return Some(UniformSource::Whole(place));
         }
-        let BlockPlace { block, offset, .. } = own.place.as_ref()?;
+        let place = own.place.as_ref()?;
         let in_block = || {
             let all = self.uniforms.iter().enumerate();
-            all.filter_map(|(number, uniform)| Some((number, uniform, uniform.place.as_ref()?.offset_in(block)?)))
+            all.filter_map(|(number, uniform)| {
+                let known = uniform.place.as_ref().filter(|known| known.block == place.block)?;
+                Some((number, uniform, known))
+            })
         };
         in_block().next()?;
         let is_real = |kind: &Type| matches!(kind.scalar(), Some(Scalar::Float | Scalar::Double));
         let number_at = |at: u32| {
             in_block().filter(|(_, uniform, _)| is_real(&uniform.kind) == is_real(&own.kind)).find_map(
-                |(place, uniform, begin)| {
-                    let number = std140::numbers(&uniform.kind).iter().position(|number| begin + number == at)?;
+                |(place, uniform, known)| {
+                    let number = known.numbers(&uniform.kind).iter().position(|number| *number == at)?;
                     Some((place, number))
                 },
             )
         };
-        Some(UniformSource::Numbers(std140::numbers(&own.kind).iter().map(|at| number_at(offset + at)).collect()))
+        Some(UniformSource::Numbers(place.numbers(&own.kind).into_iter().map(number_at).collect()))
     }
 
     /// A run with uniforms, as far as the program has them, and textures.

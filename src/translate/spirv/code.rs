@@ -204,6 +204,13 @@ impl SpirvCode {
         self.heads.insert(at, SpirvInstruction::new(opcode, [target, &literal(name)].concat()));
     }
 
+    /// The operands of a decoration of a type or, with its number, of a member.
+    pub fn decoration(&self, target: &[u32], decoration: u32) -> Option<&[u32]> {
+        let opcode = if target.len() > 1 { op::MEMBER_DECORATE } else { op::DECORATE };
+        let own = self.heads.iter().filter(|head| head.opcode == opcode);
+        own.filter_map(|head| head.operands.strip_prefix(target)?.strip_prefix(&[decoration])).next()
+    }
+
     /// Decorates `target` (an id, or an id and the number of a member).
     pub fn decorate(&mut self, target: &[u32], decoration: &[u32]) {
         let opcode = if target.len() == 1 { op::DECORATE } else { op::MEMBER_DECORATE };

@@ -2,7 +2,7 @@
 
 use super::code::SpirvCode;
 use super::io;
-use super::op;
+use super::op::{self, decoration};
 use super::textures::SamplerTypes;
 use std::collections::HashMap;
 
@@ -15,15 +15,72 @@ pub struct DeclaredUniform {
     pub ty: String,
     /// Whether it is in a block of the student's own.
     pub is_in_block: bool,
+    /// Where each of its numbers lies in that block as the student lays it out, in bytes: those of a matrix column by column.
+    pub places: Vec<u32>,
 }
 
-/// Lists the parts of a type that are scalars, vectors and matrices.
+/// Where a part of a block begins.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Beginning {
+    offset: u32,
+    /// Bytes from one column of a matrix to the next, or from row to row.
+    stride: u32,
+    is_row_major: bool,
+}
+
+impl Beginning {
+    /// That of a block.
+    pub const OF_BLOCK: Self = Self { offset: 0, stride: 0, is_row_major: false };
+
+    fn at(self, offset: u32) -> Self {
+        Self { offset: self.offset.saturating_add(offset), ..self }
+    }
+
+    /// That of a member of a structure that begins here.
+    fn of_member(self, code: &SpirvCode, structure: u32, number: u32) -> Self {
+        let of = |what| code.decoration(&[structure, number], what);
+        let word = |what| of(what).and_then(|words| words.first().copied()).unwrap_or(0);
+        let is_row_major = of(decoration::ROW_MAJOR).is_some();
+        Self { stride: word(decoration::MATRIX_STRIDE), is_row_major, ..self.at(word(decoration::OFFSET)) }
+    }
+
+    /// Where the numbers lie of a matrix, vector or scalar that begins here.
+    fn numbers(self, code: &SpirvCode, ty: u32) -> Vec<u32> {
+        let Some(declared) = code.global(ty) else { return Vec::new() };
+        let operand = |at: usize| declared.operands.get(at).copied().unwrap_or_default();
+        match declared.opcode {
+            op::TYPE_VECTOR => {
+                let each = width(code, operand(1));
+                (0..operand(2)).map(|component| self.offset + component * each).collect()
+            }
+            op::TYPE_MATRIX => {
+                let Some(column) = code.global(operand(1)) else { return Vec::new() };
+                let [_, scalar, rows] = column.operands[..] else { return Vec::new() };
+                let [column, row] = match self.is_row_major {
+                    true => [width(code, scalar), self.stride],
+                    false => [self.stride, width(code, scalar)],
+                };
+                let of_column = |number: u32| (0..rows).map(move |place| number * column + place * row);
+                (0..operand(2)).flat_map(of_column).map(|behind| self.offset + behind).collect()
+            }
+            _ => vec![self.offset],
+        }
+    }
+}
+
+/// Bytes of a scalar.
+fn width(code: &SpirvCode, scalar: u32) -> u32 {
+    let bits = code.global(scalar).filter(|own| own.opcode == op::TYPE_FLOAT).and_then(|own| own.operands.get(1));
+    bits.map_or(4, |bits| bits / 8)
+}
+
+/// Lists the parts of a type that are scalars, vectors and matrices. `begins`: where, in a block of the student's own.
 pub(super) fn declare(
     code: &SpirvCode,
     samplers: &SamplerTypes,
     ty: u32,
     path: String,
-    is_in_block: bool,
+    begins: Option<Beginning>,
     found: &mut Vec<DeclaredUniform>,
 ) {
     let Some(declared) = code.global(ty) else { return };
@@ -32,19 +89,23 @@ pub(super) fn declare(
             let names: HashMap<u32, String> = io::member_names(code, ty).into_iter().collect();
             for (number, &member) in (0..).zip(&declared.operands[1..]) {
                 let name = names.get(&number).map_or("", String::as_str);
-                declare(code, samplers, member, format!("{path}.{name}"), is_in_block, found);
+                let begins = begins.map(|own| own.of_member(code, ty, number));
+                declare(code, samplers, member, format!("{path}.{name}"), begins, found);
             }
         }
         op::TYPE_ARRAY => {
             let length = code.global(declared.operands[2]).and_then(|length| length.operands.get(2).copied());
+            let stride = code.decoration(&[ty], decoration::ARRAY_STRIDE).and_then(|words| words.first().copied());
             for index in 0..length.unwrap_or(0) {
-                declare(code, samplers, declared.operands[1], format!("{path}[{index}]"), is_in_block, found);
+                let begins = begins.map(|own| own.at(index.saturating_mul(stride.unwrap_or(0))));
+                declare(code, samplers, declared.operands[1], format!("{path}[{index}]"), begins, found);
             }
         }
         _ => found.push(DeclaredUniform {
             path,
             ty: samplers.name(ty).unwrap_or_else(|| glsl_name(code, ty)),
-            is_in_block,
+            is_in_block: begins.is_some(),
+            places: begins.map(|own| own.numbers(code, ty)).unwrap_or_default(),
         }),
     }
 }

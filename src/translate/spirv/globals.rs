@@ -1,7 +1,7 @@
 //! Global variables as wgpu takes them: uniforms that are set in one block, all others private.
 
 use super::code::{SpirvCode, SpirvInstruction};
-use super::declared::{DeclaredUniform, declare, element, fits_block, has_size, short_name};
+use super::declared::{Beginning, DeclaredUniform, declare, element, fits_block, has_size, short_name};
 use super::images;
 use super::io::{self, Io};
 use super::memory::{MemoryTypes, forget_places, place_members};
@@ -83,17 +83,17 @@ pub(super) fn rework(code: &mut SpirvCode, how: How<'_>, samplers: &SamplerTypes
         let name = name_of(if is_block { element(code, pointee) } else { id });
         if !is_block && set.contains(&name.as_str()) && fits_block(code, pointee) {
             places.insert(id, (Destination::Member(members.len() as u32), pointee));
-            declare(code, samplers, pointee, name.clone(), false, &mut uniforms.declared);
+            declare(code, samplers, pointee, name.clone(), None, &mut uniforms.declared);
             members.push((name, pointee));
         } else if is_block && set.contains(&name.as_str()) && is_array_of_blocks(code, pointee) {
             // wgpu binds no array of blocks: it is an array of structures in the block of all others.
-            declare(code, samplers, pointee, name.clone(), true, &mut uniforms.declared);
+            declare(code, samplers, pointee, name.clone(), Some(Beginning::OF_BLOCK), &mut uniforms.declared);
             forget_places(code, pointee);
             code.undecorate(element(code, pointee));
             places.insert(id, (Destination::Member(members.len() as u32), pointee));
             members.push((name, pointee));
         } else if is_block && is_set_block(code, set, pointee, &name) {
-            declare(code, samplers, pointee, name, true, &mut uniforms.declared);
+            declare(code, samplers, pointee, name, Some(Beginning::OF_BLOCK), &mut uniforms.declared);
             places.insert(id, (Destination::Block, pointee));
             blocks.push(pointee);
         } else if name == DEPTH_RANGE {

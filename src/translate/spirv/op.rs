@@ -120,6 +120,7 @@ pub mod storage {
 /// Decorations.
 pub mod decoration {
     pub const BLOCK: u32 = 2;
+    pub const ROW_MAJOR: u32 = 4;
     pub const COL_MAJOR: u32 = 5;
     pub const ARRAY_STRIDE: u32 = 6;
     pub const MATRIX_STRIDE: u32 = 7;

@@ -1,6 +1,7 @@
 //! The variables of a program that its host sees: what they are called, where they lie, how they are interpolated.
 
 use super::Slot;
+use crate::interpreter::std140;
 use crate::interpreter::types::Type;
 
 /// A variable that the host sees.
@@ -33,12 +34,14 @@ pub struct BlockPlace {
     pub offset: u32,
     /// Whether the program says that the block has this layout.
     pub is_std140: bool,
+    /// Whether the rows of a matrix lie before its columns.
+    pub is_row_major: bool,
 }
 
 impl BlockPlace {
-    /// Its place in a block of this name.
-    pub fn offset_in(&self, block: &str) -> Option<u32> {
-        (self.block == block).then_some(self.offset)
+    /// Where each number of a scalar, vector or matrix lies that begins here, in bytes: those of a matrix column by column.
+    pub fn numbers(&self, kind: &Type) -> Vec<u32> {
+        std140::numbers(kind, self.is_row_major).into_iter().map(|behind| self.offset + behind).collect()
     }
 }
 

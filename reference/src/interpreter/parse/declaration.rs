@@ -23,6 +23,10 @@ impl Parser<'_> {
         }
         let qualifiers = self.qualifiers()?;
         if self.text(0) == ";" || (self.is_name(0) && matches!(self.text(1), ";" | ",") && !self.is_type_ahead()) {
+            if self.text(0) == ";" && qualifiers.storage == StorageQualifier::Uniform {
+                self.blocks.is_std140 |= qualifiers.is_std140;
+                self.blocks.is_row_major = qualifiers.is_row_major.or(self.blocks.is_row_major);
+            }
             return self.requalification();
         }
         if self.is_name(0) && self.text(1) == "{" && self.text(0) != "struct" {
@@ -105,7 +109,9 @@ impl Parser<'_> {
                 "origin_upper_left" => qualifiers.window.from_top = true,
                 "pixel_center_integer" => qualifiers.window.in_whole_pixels = true,
                 "std140" => qualifiers.is_std140 = true,
-                "offset" | "align" | "row_major" => qualifiers.is_placed = true,
+                "row_major" | "column_major" => qualifiers.is_row_major = Some(self.text(0) == "row_major"),
+                "offset" if self.text(1) == "=" => qualifiers.placed[0] = self.text(2).parse().ok(),
+                "align" if self.text(1) == "=" => qualifiers.placed[1] = self.text(2).parse().ok(),
                 "(" => depth += 1,
                 ")" => depth -= 1,
                 "" => return Err(self.unexpected(token(")"))),
@@ -180,7 +186,9 @@ impl Parser<'_> {
         Ok(DeclaredVariable { line, name, lengths, value })
     }
 
-    fn block_of(&mut self, qualifiers: Qualifiers, line: u32) -> Result<InterfaceBlock, Refusal> {
+    fn block_of(&mut self, mut qualifiers: Qualifiers, line: u32) -> Result<InterfaceBlock, Refusal> {
+        qualifiers.is_std140 |= self.blocks.is_std140;
+        qualifiers.is_row_major = qualifiers.is_row_major.or(self.blocks.is_row_major);
         let name = self.name()?;
         let members = self.members()?;
         let instance = if self.is_name(0) { Some((self.name()?, self.lengths()?)) } else { None };

@@ -3,9 +3,10 @@
 use crate::interpreter::code::{BlockPlace, Interpolation, Slot};
 use crate::interpreter::compile::scope::Symbol;
 use crate::interpreter::compile::{Compiler, scope};
+use crate::interpreter::std140::{self, BlockMember};
 use crate::interpreter::syntax::{Declaration, InterfaceBlock, Name, StorageQualifier};
 use crate::interpreter::types::{Struct, Type};
-use crate::interpreter::{Refusal, WindowCoordinates, std140};
+use crate::interpreter::{Refusal, WindowCoordinates};
 use std::sync::Arc;
 
 impl Compiler {
@@ -17,8 +18,14 @@ impl Compiler {
             return self.storage_buffer(block);
         }
         let members = self.member_types(&block.members)?;
-        let is_laid_out = !block.qualifiers.is_placed && !block.members.iter().any(|own| own.qualifiers.is_placed);
-        let offsets = if is_laid_out { std140::offsets(&members) } else { Vec::new() };
+        let qualifiers = block.members.iter().flat_map(|own| own.variables.iter().map(|_| &own.qualifiers));
+        let laid_out = members.iter().zip(qualifiers).map(|((_, kind), own)| BlockMember {
+            kind: kind.clone(),
+            offset: own.placed[0],
+            align: own.placed[1].or(block.qualifiers.placed[1]),
+            is_row_major: own.is_row_major.or(block.qualifiers.is_row_major).unwrap_or(false),
+        });
+        let laid_out: Vec<BlockMember> = laid_out.collect();
         let first = self.uniforms.len();
         let each = |member: &Declaration| -> Vec<(Interpolation, u32)> {
             member.variables.iter().map(|own| (member.qualifiers.interpolation, own.line)).collect()
@@ -38,7 +45,7 @@ impl Compiler {
                 self.qualify(storage, interpolation, None);
                 self.scopes.declare(Name::from(name), Symbol::variable(kind, slot));
             }
-            self.place_parts(first, block, &offsets);
+            self.place_parts(first, block, &laid_out);
             return Ok(());
         };
         self.structures += 1;
@@ -48,7 +55,7 @@ impl Compiler {
         let slot = self.allocate(&kind)?;
         if storage == StorageQualifier::Uniform {
             self.leaves(&block.name, &kind, slot)?;
-            self.place_parts(first, block, &offsets);
+            self.place_parts(first, block, &laid_out);
         } else {
             self.block_parts(storage, [&block.name, instance], &kind, slot, &ways)?;
             if matches!(kind, Type::Struct(_)) {
@@ -95,11 +102,15 @@ impl Compiler {
     }
 
     /// Says where the uniforms from `first` on lie, which are the parts of a block; those of several blocks in an array have no place.
-    fn place_parts(&mut self, first: usize, block: &InterfaceBlock, offsets: &[u32]) {
+    fn place_parts(&mut self, first: usize, block: &InterfaceBlock, members: &[BlockMember]) {
+        let offsets = std140::offsets(members);
         let Some(parts) = self.uniforms.get_mut(first..).filter(|parts| parts.len() == offsets.len()) else { return };
         let is_std140 = block.qualifiers.is_std140;
-        for (part, offset) in parts.iter_mut().zip(offsets) {
-            part.place = Some(BlockPlace { block: block.name.to_string(), offset: *offset, is_std140 });
+        let row_major =
+            members.iter().flat_map(|own| vec![own.is_row_major; std140::offsets(std::slice::from_ref(own)).len()]);
+        for ((part, offset), is_row_major) in parts.iter_mut().zip(offsets).zip(row_major) {
+            let is_row_major = is_row_major && matches!(part.kind, Type::Matrix(..));
+            part.place = Some(BlockPlace { block: block.name.to_string(), offset, is_std140, is_row_major });
         }
     }
 
