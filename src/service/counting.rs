@@ -32,6 +32,11 @@ pub fn counted<T>(rows: &[T], counting: Counting, row: impl Fn(&T) -> &HistoryRo
     }
 }
 
+/// What can count of a browser's history: of a student's what has their number.
+pub fn countable<'a>(rows: &'a [HistoryRow], student_id: Option<&str>) -> Vec<&'a HistoryRow> {
+    rows.iter().filter(|row| student_id.is_none() || row.submission.student_id.as_deref() == student_id).collect()
+}
+
 /// Lets whoever handed it in choose that it counts, until handing in ends.
 pub async fn choose_own(state: &State, identity: &Identity, submission: &Submission) -> Result<(), Problem> {
     check_own(state, identity, submission).await?;

@@ -3,6 +3,7 @@
 mod api;
 mod archive;
 mod attacks;
+mod audience;
 mod bench;
 mod certificates;
 mod classes;

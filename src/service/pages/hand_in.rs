@@ -2,7 +2,7 @@
 
 use super::form::UploadForm;
 use super::frame::{PageFrame, SignInLink};
-use super::standing::StudentStanding;
+use super::standing::{StudentStanding, number_notice};
 use super::student::{LISTED, StudentPageParts};
 use super::{preview, result, shown};
 use crate::grade::handed_out;
@@ -94,12 +94,7 @@ pub(super) async fn desk(
     };
     let notice = match &stranger {
         Some(detail) => Some(detail.get(frame.language)),
-        None => needs_number.then(|| {
-            frame.say(
-                "To hand in, open the link that your teacher gave you and enter your student number.",
-                "提出するには、教員から伝えられたリンクを開き、学籍番号を入力してください。",
-            )
-        }),
+        None => number_notice(&state, &frame, identity, needs_number).await?,
     };
     let own = match &wish.from {
         Some(submission) => texts_of(&state, submission).await?.map(|texts| (submission.clone(), texts)),
@@ -121,7 +116,7 @@ pub(super) async fn desk(
             may_hand_in: !needs_number && stranger.is_none(),
             used,
         },
-        who: identity.student().map(|student| student.number.clone()),
+        who: identity.student().cloned(),
         csrf: visitor.csrf(&state),
         history: &history,
         appeal,

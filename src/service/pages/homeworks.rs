@@ -7,6 +7,7 @@ use super::teacher::Tab;
 use super::{hand_in, shown, student};
 use crate::language::Language;
 use crate::report::html::rich::MessagePiece;
+use crate::service::counting::countable;
 use crate::service::errors::Problem;
 use crate::service::identity::{Teacher, TeacherPage, Visitor};
 use crate::service::{Service, State};
@@ -124,7 +125,7 @@ async fn facts(state: &State, frame: &PageFrame, visitor: &Visitor) -> Result<Ve
     }
     let standing = StudentStanding { settings: &settings, now: state.clock.now(), may_hand_in: true, used };
     let mut facts = standing.facts(frame);
-    facts.extend(student::counted_fact(frame, &history, settings.counting));
+    facts.extend(student::counted_fact(frame, &countable(&history, identity.student_id()), settings.counting));
     Ok(facts)
 }
 

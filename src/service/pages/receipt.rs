@@ -18,6 +18,8 @@ struct ReceiptPage<'a> {
     name: &'a str,
     attempt: String,
     score: String,
+    /// Whether it counts for nobody, because there is a roster and it has no student number.
+    is_nobodys: bool,
     /// The SHA-256 of each file, and its name.
     files: Vec<(String, String)>,
     address: String,
@@ -59,6 +61,7 @@ pub(super) async fn receipt(
         name: &submission.name,
         attempt,
         score,
+        is_nobodys: submission.student_id.is_none() && state.store.has_roster().await?,
         files,
         address: at(&format!("/r/{}", submission.id)),
     };

@@ -3,7 +3,10 @@
 use super::frame::PageFrame;
 use crate::language::{Language, span};
 use crate::report::text::number;
+use crate::service::State;
 use crate::service::clock::Millis;
+use crate::service::errors::Problem;
+use crate::service::identity::Identity;
 use crate::service::store::{AssignmentSettings, LateSpan};
 
 /// Milliseconds before the deadline from which it is urgent.
@@ -234,4 +237,26 @@ fn late_rules(settings: &AssignmentSettings, frame: &PageFrame, ends: Millis) ->
             format!("遅延提出は {ends} まで（{ja}ごとに満点の {percent} % を減点{least}）")
         }
     }
+}
+
+/// What is said to whoever gave no number, where that matters.
+pub(super) async fn number_notice(
+    state: &State,
+    frame: &PageFrame,
+    identity: &Identity,
+    needs_number: bool,
+) -> Result<Option<&'static str>, Problem> {
+    if needs_number {
+        return Ok(Some(frame.say(
+            "To hand in, open the link that your teacher gave you and enter your student number.",
+            "提出するには、教員から伝えられたリンクを開き、学籍番号を入力してください。",
+        )));
+    }
+    let is_nobodys = identity.student().is_none() && state.store.has_roster().await?;
+    Ok(is_nobodys.then(|| {
+        frame.say(
+            "No student number is attached to what you hand in here: it counts for nobody. To be graded, open the link that your teacher gave you and enter your student number.",
+            "学籍番号が登録されていないため、ここで提出してもだれの成績にもなりません。成績に反映するには、教員から伝えられたリンクを開き、学籍番号を入力してください。",
+        )
+    }))
 }

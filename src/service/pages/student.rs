@@ -11,9 +11,9 @@ use crate::language::Language;
 use crate::report::html::rich::{MessagePiece, pieces};
 use crate::service::State;
 use crate::service::clock::Millis;
-use crate::service::counting::{Counting, counted};
+use crate::service::counting::{Counting, countable, counted};
 use crate::service::identity::new_id;
-use crate::service::store::{Appeal, HistoryRow};
+use crate::service::store::{Appeal, HistoryRow, StudentRecord};
 use crate::service::submit::{MAX_UPLOAD, too_large};
 use crate::slots::Slot;
 use askama::Template;
@@ -34,8 +34,8 @@ pub(super) struct StudentPageParts<'a> {
     pub state: &'a State,
     /// What may still be handed in.
     pub standing: StudentStanding<'a>,
-    /// Student number.
-    pub who: Option<String>,
+    /// The student.
+    pub who: Option<StudentRecord>,
     pub csrf: String,
     /// What this browser has handed in, the newest first.
     pub history: &'a [HistoryRow],
@@ -152,7 +152,7 @@ impl StudentPageParts<'_> {
                 href: format!("{}/teacher/folders/{folder}", state.root()),
                 digest: homework.digest.chars().take(DIGITS).collect(),
             }),
-            who: self.who,
+            who: self.who.map(|student| student.number),
             sign_ins: self.sign_ins,
             draft: format!("{page}/draft"),
             starter: starter(state),
@@ -183,14 +183,20 @@ impl StudentPageParts<'_> {
             let asked = self.frame.say("Another look:", "再確認:");
             facts.push(Fact::plain("", format!("{asked} {}", judgement::standing(&self.frame, appeal))));
         }
-        facts.extend(counted_fact(&self.frame, self.history, self.standing.settings.counting));
+        facts.extend(counted_fact(&self.frame, &self.countable(), self.standing.settings.counting));
         facts
+    }
+
+    /// What can count of the history.
+    fn countable(&self) -> Vec<&HistoryRow> {
+        countable(self.history, self.who.as_ref().map(|student| student.id.as_str()))
     }
 
     fn attempts(&self) -> Vec<Attempt> {
         let settings = self.standing.settings;
         let counting = settings.counting;
-        let counted = counted(self.history, counting, |row| row).map(|row| row.submission.id.as_str());
+        let countable = self.countable();
+        let counted = counted(&countable, counting, |row| *row).map(|row| row.submission.id.as_str());
         let may_choose = self.standing.may_hand_in && !settings.is_closed(self.standing.now);
         let choice = CountingChoice { counting, counted, may_choose };
         self.history.iter().map(|row| Attempt::of(&self.frame, row, choice)).collect()
@@ -250,8 +256,8 @@ fn accepted(slots: &[Slot]) -> String {
 }
 
 /// What counts of some attempts, the newest first.
-pub(super) fn counted_fact(frame: &PageFrame, history: &[HistoryRow], counting: Counting) -> Option<Fact> {
-    let row = counted(history, counting, |row| row)?;
+pub(super) fn counted_fact(frame: &PageFrame, history: &[&HistoryRow], counting: Counting) -> Option<Fact> {
+    let row = counted(history, counting, |row| *row)?;
     let (total, most) = (report_fragment::points(row.total()), report_fragment::points(row.max_score));
     let said = match counting {
         Counting::Best => frame.say("Best so far", "これまでの最高"),

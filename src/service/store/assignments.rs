@@ -7,12 +7,11 @@ use crate::service::clock::Millis;
 use crate::service::counting::Counting;
 use serde::{Deserialize, Serialize};
 
-/// Who may hand in.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, utoipa::ToSchema)]
+/// Who may hand in. Where nobody chose it: with a roster whoever gave a number, without one anybody.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, utoipa::ToSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Audience {
     /// Anybody.
-    #[default]
     Open,
     /// Whoever came by the course link and gave a student number.
     Number,
@@ -69,12 +68,23 @@ type AssignmentRow = (
     i64,
 );
 
+/// The audience of a homework for which nobody chose one: the tables have an empty word for it, since the roster may come later.
+macro_rules! usual_audience {
+    () => {
+        "(CASE WHEN EXISTS (SELECT 1 FROM students WHERE on_roster = 1) THEN 'number' ELSE 'open' END)"
+    };
+}
+
 /// The columns of [`AssignmentRow`].
 macro_rules! columns {
     () => {
-        "id, seed, hints, opens_at, closes_at, attempts, audience, practice, grace, late_until, late_percent, late_span, \
-         late_floor, counting, CASE WHEN is_hidden = 1 THEN 9223372036854775807 ELSE shown_from END, \
-         (SELECT count(*) FROM settings WHERE name = 'archived_at')"
+        concat!(
+            "id, seed, hints, opens_at, closes_at, attempts, CASE WHEN audience = '' THEN ",
+            usual_audience!(),
+            " ELSE audience END, practice, grace, late_until, late_percent, late_span, late_floor, counting, \
+             CASE WHEN is_hidden = 1 THEN 9223372036854775807 ELSE shown_from END, \
+             (SELECT count(*) FROM settings WHERE name = 'archived_at')"
+        )
     };
 }
 
@@ -139,7 +149,7 @@ impl Store {
     /// The settings of an assignment; the usual ones, with a seed that nobody knows, when it is met first.
     pub async fn assignment(&self, id: &str) -> Result<AssignmentSettings> {
         const SELECT: &str = concat!("SELECT ", columns!(), " FROM assignments WHERE id = $1");
-        const INSERT: &str = "INSERT INTO assignments (id, seed, hints, audience) VALUES ($1, $2, $3, $4) \
+        const INSERT: &str = "INSERT INTO assignments (id, seed, hints, audience) VALUES ($1, $2, $3, '') \
                               ON CONFLICT (id) DO NOTHING";
         let found: Option<AssignmentRow> =
             on!(&self.read, db => sqlx::query_as(SELECT).bind(id).fetch_optional(db).await?);
@@ -147,18 +157,20 @@ impl Store {
             return AssignmentSettings::of(row);
         }
         let seed = signed(crate::grade::random_seed());
-        let (hints, audience) = (word(&Hints::default()), word(&Audience::default()));
-        on!(&self.write, db => {
-            sqlx::query(INSERT).bind(id).bind(seed).bind(&hints).bind(&audience).execute(db).await?;
-        });
+        let hints = word(&Hints::default());
+        on!(&self.write, db => { sqlx::query(INSERT).bind(id).bind(seed).bind(&hints).execute(db).await?; });
         AssignmentSettings::of(on!(&self.write, db => sqlx::query_as(SELECT).bind(id).fetch_one(db).await?))
     }
 
-    /// Sets everything of an assignment.
+    /// Sets everything of an assignment. Where nobody chose an audience, the usual one is no choice.
     pub async fn set_assignment(&self, assignment: &AssignmentSettings) -> Result<()> {
-        const SQL: &str = "UPDATE assignments SET seed = $2, hints = $3, opens_at = $4, closes_at = $5, \
-                           attempts = $6, audience = $7, practice = $8, grace = $9, late_until = $10, \
-                           late_percent = $11, late_span = $12, late_floor = $13, counting = $14 WHERE id = $1";
+        const SQL: &str = concat!(
+            "UPDATE assignments SET seed = $2, hints = $3, opens_at = $4, closes_at = $5, attempts = $6, \
+             audience = CASE WHEN audience = '' AND $7 = ",
+            usual_audience!(),
+            " THEN '' ELSE $7 END, practice = $8, grace = $9, late_until = $10, late_percent = $11, late_span = $12, \
+             late_floor = $13, counting = $14 WHERE id = $1"
+        );
         on!(&self.write, db => {
             sqlx::query(SQL)
                 .bind(&assignment.id)

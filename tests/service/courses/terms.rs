@@ -8,7 +8,7 @@ use crate::staff::{administrator, bench};
 use crate::{on_both, right_and_new};
 use axum::http::StatusCode;
 use ggrade::service::clock::Clock;
-use ggrade::service::store::{AssignmentSettings, RosterLine};
+use ggrade::service::store::{AssignmentSettings, Audience, RosterLine};
 use reference::assignment;
 use sqlx::{ConnectOptions, Connection};
 
@@ -46,6 +46,7 @@ async fn a_course_goes_on_in_the_next_term(database: Database) {
     let places = copy.store.places().await.expect("places");
     assert_eq!(places.iter().find(|place| place.id == "ggsample06").and_then(|place| place.points), Some(40.0));
     assert!(copy.store.students().await.expect("students").is_empty());
+    assert_eq!(copied.audience, Audience::Number, "as in the course with a roster");
     assert_eq!(bench.get(&format!("/c/cg-2028/r/{}", graded.id())).await.status, StatusCode::NOT_FOUND);
     let fields = "wish=copy&of=cg-2027&id=dateless&title=D&days=";
     assert_eq!(form(&bench, "/teacher/courses", fields).await.status, StatusCode::SEE_OTHER);
@@ -53,7 +54,10 @@ async fn a_course_goes_on_in_the_next_term(database: Database) {
     let rules = dateless.store.assignment("ggsample06").await.expect("rules");
     assert_eq!((rules.opens_at, rules.closes_at), (None, None));
 
-    // The old one is archived: read, and no more.
+    // The old one is archived: read, and no more, also where anybody may hand in.
+    let rules = course.store.assignment("ggsample06").await.expect("rules");
+    let open = AssignmentSettings { audience: Audience::Open, ..rules };
+    course.store.set_assignment(&open).await.expect("rules");
     let page = format!("/c/cg-2027/r/{}", graded.id());
     assert!(bench.get("/c/cg-2027/a/ggsample06").await.text().contains("data-draft="));
     assert_eq!(form(&bench, "/teacher/courses", "wish=archive&of=cg-2027").await.status, StatusCode::SEE_OTHER);
