@@ -1,7 +1,7 @@
 //! The pages that people see: the templates of `pages/templates/`, filled with what the rest of the service knows.
 //!
 //! [`homeworks`] lists the homeworks where there are several, [`hand_in`] is the student's page of one, [`mod@form`] what it sends, [`student`] what that page says, [`attempts`] the cards of what was handed in, [`result`] the page of a report
-//! and its pictures, [`judgement`] what people judge there, [`join`] the course link, [`privacy`] what is kept, [`lti`] what comes from learning platforms, [`teacher`] everything behind the login. [`frame`] is around each page,
+//! and its pictures, [`judgement`] what people judge there, [`join`] the course link, [`who`] who sits there, [`privacy`] what is kept, [`lti`] what comes from learning platforms, [`teacher`] everything behind the login. [`frame`] is around each page,
 //! [`assets`] what pages load. Every page works without scripts.
 
 mod assets;
@@ -24,6 +24,7 @@ mod standing;
 mod student;
 mod teacher;
 mod terms;
+mod who;
 
 pub use assets::warm;
 pub(super) use datetime::TimeElement;

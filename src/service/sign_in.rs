@@ -80,6 +80,8 @@ async fn begin(
         ("nonce", &nonce),
         ("code_challenge", &challenge),
         ("code_challenge_method", "S256"),
+        // At a computer that several people use the issuer may know the one before.
+        ("prompt", "select_account"),
     ]);
     let mut response = Redirect::to(next.as_str()).into_response();
     if let Some(cookie) = set_sign_in(&service, &state, PATIENCE.as_secs()) {

@@ -1,17 +1,19 @@
 //! Nobody hands in as somebody else: personal codes bind browsers.
 
-use crate::bench::{Bench, Reply};
+use crate::bench::{Bench, Fake, Reply, config};
 use crate::cluster::Database;
 use crate::on_both;
 use crate::roster::{file, form, get};
 use axum::body::Body;
 use axum::http::{Request, StatusCode, header};
+use ggrade::service::clock::Clock;
 use ggrade::service::identity::{course_secret, personal_code};
 use ggrade::service::store::Proof;
 use scraper::{Html, Selector};
-use std::sync::Mutex;
+use std::sync::{Arc, Mutex};
 
 on_both!(
+    whoever_sits_there_can_leave_from_every_page,
     with_a_roster_a_number_needs_its_code,
     without_a_roster_the_first_browser_has_the_number,
     browsers_of_old_must_prove_whose_they_are,
@@ -66,6 +68,17 @@ impl Guest {
         reply
     }
 
+    /// Leaves the browser, whose page is in a window or in a frame.
+    async fn leave(&self, bench: &Bench, place: &str) -> Reply {
+        let body = format!("csrf={}", self.csrf(bench).await);
+        let request =
+            self.request("POST", "/leave").header("sec-fetch-dest", place).header(header::ACCEPT, "text/html");
+        let request = request.header(header::CONTENT_TYPE, "application/x-www-form-urlencoded");
+        let reply = bench.send(request.body(Body::from(body)).expect("a request")).await;
+        self.keep(&reply);
+        reply
+    }
+
     pub async fn hand_in(&self, bench: &Bench, text: &'static str) -> Reply {
         let request = self.request("POST", "/api/v1/submissions").header(header::CONTENT_TYPE, "text/plain");
         bench.send(request.body(Body::from(text)).expect("a request")).await
@@ -89,6 +102,31 @@ async fn code_of(bench: &Bench, number: &str) -> String {
 async fn class(bench: &Bench) -> Vec<String> {
     let rows = bench.state.store.class("ggsample06", None).await.expect("a class");
     rows.into_iter().filter_map(|row| row.number).collect()
+}
+
+async fn whoever_sits_there_can_leave_from_every_page(database: Database) {
+    let bench = Bench::with(database, config(), Arc::new(Fake(|| Ok(()))), Clock::system()).await;
+    roster(&bench, "S1,A\n").await;
+    let student = bench.state.store.student_by_number("S1").await.expect("a store").expect("a student");
+    let guest = Guest::new(&bench).await;
+    guest.join(&bench, "S1", &personal_code(&bench.state, &student)).await;
+    let report = guest.hand_in(&bench, "mine").await.id();
+    for page in ["/".to_owned(), "/a/ggsample06".to_owned(), format!("/r/{report}"), "/privacy".to_owned()] {
+        let shown = guest.get(&bench, &page).await;
+        assert_eq!(shown.all(".top .who bdi"), ["S1"], "{page}");
+        assert_eq!(shown.all(".top form[action='/leave'] button"), ["Not you? Leave this computer"], "{page}");
+        let japanese = guest.get(&bench, &format!("{page}?lang=ja")).await;
+        assert_eq!(japanese.all(".top form button"), ["あなたではない場合: この端末を離れる"], "{page}");
+    }
+    let left = guest.leave(&bench, "document").await;
+    assert_eq!((left.status, left.header("location")), (StatusCode::SEE_OTHER, "/a/ggsample06"));
+    let desk = guest.get(&bench, "/a/ggsample06").await;
+    assert!(desk.all(".top .who").is_empty() && desk.all(".attempts").is_empty(), "{desk:?}");
+    // In a frame as well.
+    guest.join(&bench, "S1", &personal_code(&bench.state, &student)).await;
+    assert_eq!(guest.leave(&bench, "iframe").await.status, StatusCode::SEE_OTHER);
+    assert!(guest.get(&bench, "/").await.all(".top .who").is_empty());
+    bench.finish().await;
 }
 
 async fn with_a_roster_a_number_needs_its_code(database: Database) {

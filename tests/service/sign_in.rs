@@ -121,6 +121,7 @@ async fn students_and_staff_come_in_by_the_issuers_word(database: Database) {
         assert_eq!(page.all(".top .who bdi"), ["S1"]);
     }
     assert_eq!(issuer.seen().discovered, 1, "what it is is not asked at each sign-in");
+    assert_eq!(begin(&bench).await.asked["prompt"], "select_account", "the next one may be somebody else");
     // Another student at the same browser is another browser, in which nothing of the first is seen.
     let first = signed_in(&bench, &issuer, "s1@example.ac.jp", |_| ()).await;
     let begun = begin(&bench).await;

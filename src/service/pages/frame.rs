@@ -2,6 +2,7 @@
 
 use super::assets;
 use super::datetime::TimeElement;
+use super::who::KnownStudent;
 use crate::language::Language;
 use crate::report::html::SYMBOLS;
 use crate::report::labels::mistake_title;
@@ -30,6 +31,8 @@ pub struct PageFrame {
     pub course: Course,
     /// The teacher who looks.
     teacher: Option<Teacher>,
+    /// The student at whose browser the page is read.
+    pub who: Option<KnownStudent>,
     uri: Uri,
     /// The homework; none on a page that is of none.
     assignment: Option<Arc<Assignment>>,
@@ -68,7 +71,7 @@ impl SignInLink {
 impl PageFrame {
     /// The frame of a page at an address.
     pub fn new(language: Language, course: Course, uri: Uri, assignment: Option<Arc<Assignment>>) -> Self {
-        Self { language, course, teacher: None, uri, assignment, base: String::new(), root: courses::root() }
+        Self { language, course, teacher: None, who: None, uri, assignment, base: String::new(), root: courses::root() }
     }
 
     /// The same for a page of a homework.
@@ -248,7 +251,8 @@ impl<S: Scope> FromRequestParts<S> for PageFrame {
         let language = of_request(&parts.headers, &uri);
         let course = scope.whole().store.course().await?;
         let teacher = Teacher::of_request(scope.whole(), &parts.headers, &mut parts.extensions).await?;
-        let frame = Self { teacher, ..Self::new(language, course, uri, None) };
+        let who = KnownStudent::of(scope.whole(), &parts.extensions);
+        let frame = Self { teacher, who, ..Self::new(language, course, uri, None) };
         Ok(match scope.own() {
             Some(state) => frame.of(&state),
             None => frame,

@@ -53,8 +53,6 @@ struct HomeworksPage {
     frame: PageFrame,
     heading: &'static str,
     homeworks: Vec<HomeworkCard>,
-    /// Student number.
-    who: Option<String>,
     sign_ins: Vec<SignInLink>,
 }
 
@@ -108,9 +106,8 @@ async fn list(Shared(service): Shared<Service>, frame: PageFrame, visitor: Visit
         homeworks.push(HomeworkCard::of(&state, &frame, state.page(), facts));
     }
     let heading = frame.say("Homework", "課題の一覧");
-    let who = visitor.identity.student().map(|student| student.number.clone());
     let sign_ins = SignInLink::all(&service, None);
-    shown(HomeworksPage { frame, heading, homeworks, who, sign_ins }.render())
+    shown(HomeworksPage { frame, heading, homeworks, sign_ins }.render())
 }
 
 /// Dates, attempts, and the best of what this browser has handed in.

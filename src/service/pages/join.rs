@@ -5,12 +5,12 @@ use super::{shown, student};
 use crate::service::Service;
 use crate::service::courses::at;
 use crate::service::errors::Problem;
-use crate::service::identity::{self, Identity, Visitor, personal_code};
+use crate::service::identity::{self, Identity, Jar, Visitor, personal_code};
 use crate::service::store::Proof;
 use askama::Template;
 use axum::Form;
 use axum::extract::{Path, Query, State as Shared};
-use axum::http::StatusCode;
+use axum::http::{HeaderMap, StatusCode};
 use axum::response::{IntoResponse, Redirect, Response};
 use serde::Deserialize;
 
@@ -96,13 +96,15 @@ pub(super) async fn join(
     Path(secret): Path<String>,
     frame: PageFrame,
     visitor: Visitor,
+    headers: HeaderMap,
     Form(given): Form<JoinForm>,
 ) -> Result<Response, Problem> {
     visitor.check_csrf(&service, &given.csrf)?;
+    let jar = Jar::of(&headers);
     match identity::join(&service, visitor.clone(), &secret, &given.number, &given.code).await {
         // Who has their code from nobody is shown it there.
-        Ok(visitor) if has_first(&visitor) => Ok(to_page(&service, &visitor, &format!("/join/{secret}"))),
-        Ok(visitor) => Ok(to_page(&service, &visitor, &desk(&service))),
+        Ok(visitor) if has_first(&visitor) => Ok(to_page(&service, &visitor, (&format!("/join/{secret}"), jar))),
+        Ok(visitor) => Ok(to_page(&service, &visitor, (&desk(&service), jar))),
         Err(problem)
             if problem.status == StatusCode::UNPROCESSABLE_ENTITY
                 || matches!(problem.kind, "code-needed" | "wrong-code") =>
@@ -120,10 +122,11 @@ pub(super) async fn join(
 pub(super) async fn leave(
     Shared(service): Shared<Service>,
     visitor: Visitor,
+    headers: HeaderMap,
     Form(given): Form<JoinForm>,
 ) -> Result<Response, Problem> {
     visitor.check_csrf(&service, &given.csrf)?;
-    Ok(to_page(&service, &identity::leave(), &desk(&service)))
+    Ok(to_page(&service, &identity::leave(), (&desk(&service), Jar::of(&headers))))
 }
 
 /// Whether a browser is a student's because it was the first that gave the number.
@@ -136,8 +139,8 @@ fn desk(service: &Service) -> String {
     service.only().map_or_else(|| at("/"), |state| state.page())
 }
 
-fn to_page(service: &Service, visitor: &Visitor, page: &str) -> Response {
+fn to_page(service: &Service, visitor: &Visitor, (page, jar): (&str, Jar)) -> Response {
     let mut response = Redirect::to(page).into_response();
-    visitor.set_cookie(service, &mut response);
+    visitor.set_cookie_in(service, &mut response, jar);
     response
 }
