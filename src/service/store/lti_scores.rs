@@ -30,10 +30,17 @@ pub struct DueScore {
 /// How many scores a platform has still to get after a failure, and what it said last.
 pub type Stuck = (String, i64, Option<String>);
 
-/// The statement that finds what is due: which scores it looks at, and which of those that are due it has. In turn come those of
-/// a platform that failed least.
+/// Whether what is due is not what was tried last. It is unknown while somebody sends it: then it says nothing, which is as good as no.
+macro_rules! has_changed {
+    ($id:literal, $score:literal, $feedback:literal) => {
+        concat!("(tried_id <> ", $id, " OR tried_score <> ", $score, " OR tried_feedback <> ", $feedback, ")")
+    };
+}
+
+/// The statement that finds what is due: which scores it looks at, when they are tried, and which of those that are due it has. In
+/// turn come those of a platform that failed least.
 macro_rules! due {
-    ($which:literal, $rest:literal) => {
+    ($which:literal, $when:expr, $rest:literal) => {
         concat!(
             "SELECT platform_id, link_id, subject, line_item, submission_id, score, feedback, sent_at, tries FROM \
              (SELECT due.*, ROW_NUMBER() OVER (PARTITION BY platform_id ORDER BY tries, link_id, subject) AS turn FROM \
@@ -45,7 +52,7 @@ macro_rules! due {
              (SELECT k.platform_id, k.link_id, k.subject, l.line_item, s.id AS submission_id, \
              r.score - n.penalty AS score, r.graded_at, \
              k.sent_at, k.tries, k.submission_id AS sent_id, k.score AS sent_score, \
-             k.feedback AS sent_feedback, \
+             k.feedback AS sent_feedback, k.next_at, k.tried_id, k.tried_score, k.tried_feedback, \
              ROW_NUMBER() OVER (PARTITION BY k.platform_id, k.link_id, k.subject \
              ORDER BY CASE WHEN a.counting = 'chosen' THEN coalesce(s.chosen_at, 0) ELSE 0 END DESC, \
              CASE WHEN a.counting = 'best' THEN r.score - n.penalty ELSE 0 END DESC, \
@@ -63,7 +70,9 @@ macro_rules! due {
             " AND l.line_item IS NOT NULL) AS best WHERE place = 1) AS due \
              WHERE (sent_id IS NULL OR sent_id <> submission_id OR sent_score <> score \
              OR sent_feedback <> feedback) AND (sent_id IS NULL OR score >= sent_score \
-             OR EXISTS (SELECT 1 FROM submissions g WHERE g.id = sent_id))) AS turns ",
+             OR EXISTS (SELECT 1 FROM submissions g WHERE g.id = sent_id)) AND ",
+            $when,
+            ") AS turns ",
             $rest
         )
     };
@@ -110,24 +119,35 @@ impl Store {
         Ok(())
     }
 
-    /// Scores that are due at `now`: of each platform as many as are sent in one go. The attempt counts that
+    /// Scores that are due at `now`: of each platform as many as are sent in one go. What has changed since it failed does not wait. The attempt counts that
     /// [`counted`](crate::service::counting::counted) names. Where the one that was sent is deleted, no lower one takes its place:
     /// what is too old to be kept costs nobody a point.
     pub async fn due_scores(&self, now: Millis) -> Result<Vec<DueScore>> {
-        const SQL: &str = due!("k.next_at <= $1", "WHERE turn <= 50 ORDER BY platform_id, turn");
+        const SQL: &str = due!(
+            "1 = 1",
+            concat!("(next_at <= $1 OR ", has_changed!("submission_id", "score", "feedback"), ")"),
+            "WHERE turn <= 50 ORDER BY platform_id, turn"
+        );
         Ok(on!(&self.read, db => sqlx::query_as(SQL).bind(now).fetch_all(db).await?))
     }
 
     /// Claims a score that was due, and keeps it from other processes until `until`. None where another one has it, or has sent it;
     /// else what is due of it now.
     pub async fn claim_score(&self, due: &DueScore, now: Millis, until: Millis) -> Result<Option<DueScore>> {
-        const CLAIM: &str = "UPDATE lti_scores SET next_at = $5 WHERE platform_id = $1 AND link_id = $2 AND subject = $3 \
-                             AND next_at <= $4";
-        const SQL: &str = due!("k.platform_id = $1 AND k.link_id = $2 AND k.subject = $3", "");
+        const CLAIM: &str = concat!(
+            "UPDATE lti_scores SET next_at = $5, tries = CASE WHEN ",
+            has_changed!("$6", "$7", "$8"),
+            " THEN 0 ELSE tries END, tried_id = NULL, tried_score = NULL, tried_feedback = NULL \
+             WHERE platform_id = $1 AND link_id = $2 AND subject = $3 AND (next_at <= $4 OR ",
+            has_changed!("$6", "$7", "$8"),
+            ")"
+        );
+        const SQL: &str = due!("k.platform_id = $1 AND k.link_id = $2 AND k.subject = $3", "1 = 1", "");
         const FREE: &str = "UPDATE lti_scores SET next_at = 0 WHERE platform_id = $1 AND link_id = $2 AND subject = $3 AND next_at = $4";
         let (platform, link, subject) = (&due.platform_id, &due.link_id, &due.subject);
         on!(&self.write, db => {
             let claim = sqlx::query(CLAIM).bind(platform).bind(link).bind(subject).bind(now).bind(until);
+            let claim = claim.bind(&due.submission_id).bind(due.score).bind(&due.feedback);
             if claim.execute(db).await?.rows_affected() == 0 {
                 return Ok(None);
             }
@@ -139,10 +159,12 @@ impl Store {
         })
     }
 
-    /// Notes that a score has arrived, with the time that it was given.
+    /// Notes that a score has arrived, with the time that it was given. Those that its platform did not take are tried again.
     pub async fn score_sent(&self, due: &DueScore, at: Millis) -> Result<()> {
         const SQL: &str = "UPDATE lti_scores SET submission_id = $4, score = $5, sent_at = $6, feedback = $7, tries = 0, \
                            next_at = 0, problem = NULL WHERE platform_id = $1 AND link_id = $2 AND subject = $3";
+        const OTHERS: &str =
+            "UPDATE lti_scores SET tries = 0, next_at = 0 WHERE platform_id = $1 AND tried_id IS NOT NULL";
         on!(&self.write, db => {
             sqlx::query(SQL)
                 .bind(&due.platform_id)
@@ -154,13 +176,15 @@ impl Store {
                 .bind(&due.feedback)
                 .execute(db)
                 .await?;
+            sqlx::query(OTHERS).bind(&due.platform_id).execute(db).await?;
         });
         Ok(())
     }
 
     /// Notes that a score did not arrive, why, and when it is tried again.
     pub async fn score_failed(&self, due: &DueScore, problem: &str, next_at: Millis) -> Result<()> {
-        const SQL: &str = "UPDATE lti_scores SET tries = tries + 1, next_at = $4, problem = $5 \
+        const SQL: &str = "UPDATE lti_scores SET tries = tries + 1, next_at = $4, problem = $5, tried_id = $6, \
+                           tried_score = $7, tried_feedback = $8 \
                            WHERE platform_id = $1 AND link_id = $2 AND subject = $3";
         on!(&self.write, db => {
             sqlx::query(SQL)
@@ -169,6 +193,9 @@ impl Store {
                 .bind(&due.subject)
                 .bind(next_at)
                 .bind(problem)
+                .bind(&due.submission_id)
+                .bind(due.score)
+                .bind(&due.feedback)
                 .execute(db)
                 .await?;
         });

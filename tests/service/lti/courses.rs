@@ -120,7 +120,7 @@ async fn a_platforms_course_leads_to_its_course_here(database: Database) {
     send_due(&course).await;
     for page in ["/teacher/platforms", "/c/cg-2027/teacher/platforms"] {
         let page = get(&bench, page).await;
-        assert!(page.text().contains("1 scores have not arrived") && page.text().contains("503"), "{}", page.text());
+        assert!(page.text().contains("1 score has not arrived") && page.text().contains("503"), "{}", page.text());
     }
     platform.seen().failing = None;
     course.clock.advance(std::time::Duration::from_secs(6));

@@ -19,6 +19,7 @@ use std::time::Duration;
 
 on_both!(
     scores_go_home_until_they_arrive,
+    what_changed_does_not_wait_for_the_next_try,
     a_platform_that_hangs_holds_up_no_other,
     no_score_goes_home_twice,
     what_is_handed_in_without_its_link_goes_home_as_well,
@@ -43,7 +44,11 @@ async fn scores_go_home_until_they_arrive(database: Database) {
     platform.seen().failing = Some(StatusCode::SERVICE_UNAVAILABLE);
     send_due(&bench.state).await;
     let page = get(&bench, "/teacher/platforms").await;
-    assert!(page.text().contains("1 scores have not arrived") && page.text().contains("503"), "{}", page.text());
+    assert!(
+        page.text().contains("1 score has not arrived; it is sent again by itself.") && page.text().contains("503"),
+        "{}",
+        page.text()
+    );
     platform.seen().failing = None;
     send_due(&bench.state).await;
     assert!(platform.seen().scores.is_empty(), "it is not asked again at once");
@@ -113,6 +118,37 @@ async fn scores_go_home_until_they_arrive(database: Database) {
     );
     let refused = bench.get(&format!("/lti/login?iss={}&login_hint=1", encoded(&platform.issuer))).await;
     assert_eq!(refused.problem(), "lti");
+    bench.finish().await;
+}
+
+async fn what_changed_does_not_wait_for_the_next_try(database: Database) {
+    let (bench, platform) = bench(database, now()).await;
+    registered(&bench, &platform).await;
+    let browsers = [
+        cookie(&launch(&bench, &platform, "s1", "Learner").await, "ggrade"),
+        cookie(&launch(&bench, &platform, "s2", "Learner").await, "ggrade"),
+    ];
+    for browser in &browsers {
+        assert_eq!(hand_in(&bench, browser, sample(WRONG)).await.status, StatusCode::CREATED);
+    }
+    // The clock stands: by itself none is tried again.
+    platform.seen().failing = Some(StatusCode::SERVICE_UNAVAILABLE);
+    send_due(&bench.state).await;
+    assert!(get(&bench, "/teacher/platforms").await.text().contains("2 scores have not arrived; they are"));
+    platform.seen().failing = None;
+    send_due(&bench.state).await;
+    assert!(platform.seen().scores.is_empty(), "nothing has changed");
+    assert_eq!(hand_in(&bench, &browsers[0], right()).await.status, StatusCode::CREATED);
+    send_due(&bench.state).await;
+    let arrived = |of: usize| {
+        let score = platform.seen().scores.get(of).cloned().unwrap_or_default();
+        (score["userId"].clone(), score["scoreGiven"].clone())
+    };
+    assert_eq!(arrived(0), (json!("s1"), json!(100.0)));
+    // The platform takes scores again: the other one does not wait any longer either.
+    send_due(&bench.state).await;
+    assert_eq!((arrived(1), platform.seen().scores.len()), ((json!("s2"), json!(80.0)), 2));
+    assert!(get(&bench, "/teacher/platforms").await.all(".panel .notice").is_empty());
     bench.finish().await;
 }
 

@@ -1,0 +1,4 @@
+-- What a platform did not take: a score that has changed since does not wait for the next try. Nothing while one is being sent.
+ALTER TABLE lti_scores ADD COLUMN tried_id TEXT;
+ALTER TABLE lti_scores ADD COLUMN tried_score REAL;
+ALTER TABLE lti_scores ADD COLUMN tried_feedback TEXT;
