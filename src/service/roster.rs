@@ -1,12 +1,13 @@
 //! The roster: the list of students that is the class.
 //!
-//! [`read`] reads the file that a teacher imports, [`matching`] says who of the roster an entry of an archive is.
+//! [`read`] reads the file that a teacher imports, whose columns [`heading`] tells apart, [`matching`] says who of the roster an entry of an archive is.
 
+mod heading;
 mod matching;
 mod read;
 
 pub use matching::Matcher;
-pub use read::read;
+pub use read::{RosterFile, read};
 
 use super::Service;
 use super::errors::Problem;

@@ -13,6 +13,7 @@ use std::time::Duration;
 
 on_both!(
     the_class_is_the_roster,
+    columns_that_are_not_taken_are_named,
     numbers_that_are_not_on_the_roster_are_refused,
     what_cannot_be_read_leads_back_to_its_form,
     three_hundred_students_and_an_archive,
@@ -169,12 +170,25 @@ async fn the_class_is_the_roster(database: Database) {
     // Another roster: who is on it now is the class, and nothing is lost.
     let said = roster(&bench, "S13,他人 太郎\n").await;
     assert!(said.contains("1 on it, 1 of them new; 5 of the roster before are no longer on it"), "{said}");
-    assert!(said.ends_with("It begins with S13 他人 太郎."), "{said}");
+    assert!(said.ends_with("0 of 1 have a group. It begins with S13 他人 太郎."), "{said}");
     let page = get(&bench, "/teacher").await;
     assert_eq!(page.all(".people tbody th"), ["S13 他人 太郎"]);
     assert_eq!(page.all(".people .mistakes span"), ["Half vector not normalised"]);
     let page = get(&bench, "/teacher?lang=ja").await;
     assert_eq!(page.all(".people .mistakes span"), ["中間ベクトルが正規化されていない"]);
+    bench.finish().await;
+}
+
+async fn columns_that_are_not_taken_are_named(database: Database) {
+    let bench = Bench::new(database).await;
+    let file = "Matrikelnummer;Nachname;Vorname;Gruppe;Studiengang & <Jahr>\nS1;Wada;Hanako;A;X\nS2;Ito;Ken;;Y\n";
+    let said = roster(&bench, file).await;
+    let expected =
+        "1 of 2 have a group. Columns that were not taken: Studiengang & <Jahr>. It begins with S1 Wada Hanako";
+    assert!(said.contains(expected), "{said}");
+    let put = request("PUT", "/api/v1/roster", "text/csv", "ID,Name,Year\nS1,Wada,3\n");
+    let answer = bench.send(put).await.json();
+    assert_eq!((&answer["columns_left_aside"], &answer["with_group"]), (&serde_json::json!(["Year"]), &0.into()));
     bench.finish().await;
 }
 

@@ -3,11 +3,12 @@
 use super::body::{other, unkept};
 use super::caller::{Caller, check_course, check_reader};
 use super::refusals::{Errors, NotFound, Refusals};
+use crate::service::Service;
 use crate::service::acts::Detail;
 use crate::service::errors::Problem;
 use crate::service::identity::{Teacher, course_link, normal_number, personal_code, personal_link};
+use crate::service::roster::{self, RosterFile};
 use crate::service::store::{StaffRole, StudentRecord};
-use crate::service::{Service, roster};
 use axum::Json;
 use axum::body::Bytes;
 use axum::extract::rejection::BytesRejection;
@@ -36,6 +37,17 @@ pub(super) struct RosterStudentJson {
 pub(super) struct RosterJson {
     /// By number; empty where there is no roster.
     students: Vec<RosterStudentJson>,
+}
+
+/// A roster that was taken.
+#[derive(Serialize, utoipa::ToSchema)]
+pub(super) struct ImportedRosterJson {
+    /// By number.
+    students: Vec<RosterStudentJson>,
+    /// How many of them have a group.
+    with_group: usize,
+    /// The names of the file's columns that were not taken.
+    columns_left_aside: Vec<String>,
 }
 
 /// A student's personal code.
@@ -85,7 +97,7 @@ pub(super) async fn read(teacher: Teacher, Shared(service): Shared<Service>) -> 
 #[utoipa::path(
     put, operation_id = "set_roster", path = "/api/v1/roster", tag = "courses", security(("teacher" = [])),
     request_body(content = String, content_type = "text/csv"),
-    responses((status = 200, description = "As it stands now", body = RosterJson), Refusals, Errors)
+    responses((status = 200, description = "As it stands now", body = ImportedRosterJson), Refusals, Errors)
 )]
 pub(super) async fn set(
     caller: Caller,
@@ -93,9 +105,12 @@ pub(super) async fn set(
     file: Result<Bytes, BytesRejection>,
 ) -> Result<Response, Problem> {
     check_course(&caller, &service, StaffRole::Lecturer)?;
-    let lines = roster::read(&file.map_err(other)?)?;
+    let RosterFile { lines, left_aside } = roster::read(&file.map_err(other)?)?;
     roster::import(&service, &lines).await?;
-    Ok(Detail::of(lines.len().to_string()).on(Json(json(&service).await?).into_response()))
+    let RosterJson { students } = json(&service).await?;
+    let with_group = students.iter().filter(|student| !student.group.is_empty()).count();
+    let imported = ImportedRosterJson { students, with_group, columns_left_aside: left_aside };
+    Ok(Detail::of(lines.len().to_string()).on(Json(imported).into_response()))
 }
 
 fn code(service: &Service, course_link: &str, student: StudentRecord) -> CodeJson {

@@ -1,37 +1,10 @@
 //! Reading a roster: what a spreadsheet or Moodle saves.
 
+use super::heading::{Heading, is_no_student};
 use crate::service::errors::Problem;
 use crate::service::identity::normal_number;
 use crate::service::store::RosterLine;
 use std::collections::HashMap;
-use unicode_normalization::UnicodeNormalization;
-
-/// What columns are called, in the languages of the course and by Moodle; spaces and case aside.
-const NUMBER: [&str; 15] = [
-    "学籍番号",
-    "学生番号",
-    "学生証番号",
-    "studentnumber",
-    "studentno",
-    "studentid",
-    "matrikelnummer",
-    "idnumber",
-    "idナンバー",
-    "sisuserid",
-    "sid",
-    "ユーザ名",
-    "ユーザー名",
-    "username",
-    "number",
-];
-const NAME: [&str; 9] =
-    ["氏名", "学生氏名", "名前", "姓名", "フルネーム", "fullname", "name", "studentname", "student"];
-const FAMILY: [&str; 5] = ["姓", "surname", "lastname", "familyname", "last"];
-const GIVEN: [&str; 5] = ["名", "firstname", "givenname", "forename", "first"];
-const MOODLE: [&str; 2] = ["識別子", "identifier"];
-const EMAIL: [&str; 9] =
-    ["メールアドレス", "メール", "eメール", "電子メール", "email", "emailaddress", "e-mail", "e-mailaddress", "mail"];
-const GROUP: [&str; 6] = ["グループ", "班", "クラス", "group", "groups", "section"];
 
 /// Lines in which a heading is looked for: some lists begin with the name of the course.
 const ABOVE: usize = 10;
@@ -39,40 +12,13 @@ const ABOVE: usize = 10;
 /// Mistakes that one message lists.
 const LISTED: usize = 5;
 
-/// The columns that a heading names.
-#[derive(Debug, Default)]
-struct Heading {
-    number: Option<usize>,
-    name: Option<usize>,
-    family: Option<usize>,
-    given: Option<usize>,
-    moodle: Option<usize>,
-    group: Option<usize>,
-    email: Option<usize>,
-}
-
-impl Heading {
-    /// A heading names the column of the numbers; a line without that is none.
-    fn of(cells: &[String]) -> Option<Self> {
-        let folded: Vec<String> = cells
-            .iter()
-            .map(|cell| {
-                cell.nfkc().filter(|c| !c.is_whitespace() && !"_.".contains(*c)).collect::<String>().to_lowercase()
-            })
-            .collect();
-        // The first name of the list counts: Moodle has both an ID number and a username.
-        let find = |names: &[&str]| names.iter().find_map(|name| folded.iter().position(|cell| cell == name));
-        let number = find(&NUMBER)?;
-        Some(Self {
-            number: Some(number),
-            name: find(&NAME),
-            family: find(&FAMILY),
-            given: find(&GIVEN),
-            moodle: find(&MOODLE),
-            group: find(&GROUP),
-            email: find(&EMAIL),
-        })
-    }
+/// What a file says.
+#[derive(Debug)]
+pub struct RosterFile {
+    /// The students.
+    pub lines: Vec<RosterLine>,
+    /// The names of the columns that were not taken.
+    pub left_aside: Vec<String>,
 }
 
 /// The students of a roster: a CSV file with commas, semicolons or tabs, in whatever encoding a spreadsheet saves.
@@ -80,7 +26,7 @@ impl Heading {
 /// A heading says which column is which; what stands above it is left aside. Without one, the first cell of a line that is a
 /// student number is the number, and the first other cell the name. A line without a number is a heading where it is the
 /// first, and a mistake elsewhere.
-pub fn read(bytes: &[u8]) -> Result<Vec<RosterLine>, Problem> {
+pub fn read(bytes: &[u8]) -> Result<RosterFile, Problem> {
     if bytes.starts_with(b"PK\x03\x04") || bytes.starts_with(b"\xd0\xcf\x11\xe0") {
         return Err(Problem::unprocessable(
             "This is an Excel workbook or an archive, not a CSV file. In Excel choose \"Save as\" and \"CSV UTF-8\". The roster was not changed.",
@@ -98,8 +44,8 @@ pub fn read(bytes: &[u8]) -> Result<Vec<RosterLine>, Problem> {
     let mut lines: HashMap<String, (usize, u64)> = HashMap::new();
     let (mut without, mut twice) = (Vec::new(), Vec::new());
     for (index, (line, cells)) in records.into_iter().enumerate().skip(above) {
-        match heading.as_ref().map_or_else(|| by_shape(&cells), |heading| by_heading(heading, &cells)) {
-            None if index == 0 => {}
+        match heading.as_ref().map_or_else(|| by_shape(&cells), |heading| heading.line(&cells)) {
+            None if index == 0 || is_no_student(&cells) => {}
             None => without.push(line),
             Some(found) => match lines.get(&found.number) {
                 Some((at, _)) if roster[*at].name == found.name => {}
@@ -120,7 +66,7 @@ pub fn read(bytes: &[u8]) -> Result<Vec<RosterLine>, Problem> {
             "学籍番号のある行がありません。各行は「s1234567,氏名」の形にしてください。名簿は変更していません。",
         ));
     }
-    Ok(roster)
+    Ok(RosterFile { lines: roster, left_aside: heading.map(|heading| heading.left_aside).unwrap_or_default() })
 }
 
 /// The lines that have something, by their numbers.
@@ -161,22 +107,6 @@ fn open_quotation(text: &str) -> Option<Problem> {
     })
 }
 
-fn by_heading(heading: &Heading, cells: &[String]) -> Option<RosterLine> {
-    let cell =
-        |column: Option<usize>| column.and_then(|column| cells.get(column)).map(String::as_str).unwrap_or_default();
-    let name = match cell(heading.name) {
-        "" => format!("{} {}", cell(heading.family), cell(heading.given)).trim().to_owned(),
-        name => name.to_owned(),
-    };
-    Some(RosterLine {
-        number: normal_number(cell(heading.number))?,
-        name,
-        moodle: participant(cell(heading.moodle)),
-        group: cell(heading.group).to_owned(),
-        email: cell(heading.email).to_owned(),
-    })
-}
-
 fn by_shape(cells: &[String]) -> Option<RosterLine> {
     let number = |cell: &str| normal_number(cell).filter(|number| number.chars().any(|c| c.is_ascii_digit()));
     let place = cells.iter().position(|cell| number(cell).is_some())?;
@@ -187,7 +117,7 @@ fn by_shape(cells: &[String]) -> Option<RosterLine> {
 }
 
 /// The number in `Participant 1234`, as Moodle's worksheet writes it.
-fn participant(cell: &str) -> Option<u64> {
+pub(super) fn participant(cell: &str) -> Option<u64> {
     let rest = ["Participant", "参加者"].iter().find_map(|word| cell.strip_prefix(word))?;
     rest.trim().parse().ok()
 }
@@ -230,7 +160,7 @@ mod tests {
     use super::*;
 
     fn of(text: &str) -> Vec<RosterLine> {
-        read(text.as_bytes()).expect("a roster")
+        read(text.as_bytes()).expect("a roster").lines
     }
 
     fn line(number: &str, name: &str) -> RosterLine {
@@ -244,11 +174,11 @@ mod tests {
         assert_eq!(of("和田 花子\ts1234567\nSmith, J.\ts1234568"), expected);
         assert_eq!(of("No;Name\ns1234567;和田 花子\ns1234568;Smith, J.\ns1234568;Smith, J.\n"), expected);
         let (sjis, _, _) = encoding_rs::SHIFT_JIS.encode("s1234567,和田 花子\n");
-        assert_eq!(read(&sjis).expect("a roster"), [line("S1234567", "和田 花子")]);
+        assert_eq!(read(&sjis).expect("a roster").lines, [line("S1234567", "和田 花子")]);
         // Excel's “Unicode text”, and its CSV in Europe: a comma may stand in a name.
         let unicode = "\u{feff}学籍番号\t氏名\r\ns1234567\t和田 花子\r\n";
         let unicode: Vec<u8> = unicode.encode_utf16().flat_map(u16::to_le_bytes).collect();
-        assert_eq!(read(&unicode).expect("a roster"), [line("S1234567", "和田 花子")]);
+        assert_eq!(read(&unicode).expect("a roster").lines, [line("S1234567", "和田 花子")]);
         assert_eq!(of("\"Smith, J., Jr.\";s1234568\n"), [line("S1234568", "Smith, J., Jr.")]);
         assert_eq!(of("\"学籍\n番号\",氏名\ns1234567,\"和田\r\n花子\"\n"), [line("S1234567", "和田 花子")]);
     }

@@ -8,11 +8,18 @@ use crate::service::acts::Detail;
 use crate::service::api::body::other;
 use crate::service::errors::Problem;
 use crate::service::identity::{LecturerPage, Teacher};
-use crate::service::roster::{self, RosterChange};
+use crate::service::roster::{self, RosterChange, RosterFile};
 use axum::extract::multipart::MultipartRejection;
 use axum::extract::{Multipart, State as Shared};
 use axum::http::{HeaderMap, StatusCode};
 use axum::response::{IntoResponse, Redirect, Response};
+use percent_encoding::{NON_ALPHANUMERIC, utf8_percent_encode};
+
+/// Columns that the page names.
+const LISTED_COLUMNS: usize = 12;
+
+/// Longest name of a column that it quotes, in characters.
+const LONGEST_COLUMN: usize = 40;
 
 /// `POST /teacher/roster`: a CSV file of student numbers and names. One that cannot be read leads back to the form.
 pub(in crate::service::pages) async fn take(
@@ -23,8 +30,11 @@ pub(in crate::service::pages) async fn take(
     form: Result<Multipart, MultipartRejection>,
 ) -> Result<Response, Problem> {
     match import(&state, &teacher, form).await {
-        Ok((students, RosterChange { new, gone })) => {
-            let next = format!("{}/settings?done=roster&new={new}&gone={gone}", frame.teacher());
+        Ok((RosterFile { lines, left_aside }, RosterChange { new, gone })) => {
+            let students = lines.len();
+            let aside = shortened(&left_aside);
+            let aside = utf8_percent_encode(&aside, NON_ALPHANUMERIC);
+            let next = format!("{}/settings?done=roster&new={new}&gone={gone}&aside={aside}", frame.teacher());
             let answer = Redirect::to(&next).into_response();
             Ok(Detail::of(students.to_string()).on(answer))
         }
@@ -44,7 +54,7 @@ async fn import(
     state: &State,
     teacher: &Teacher,
     form: Result<Multipart, MultipartRejection>,
-) -> Result<(usize, RosterChange), Problem> {
+) -> Result<(RosterFile, RosterChange), Problem> {
     let mut form = form.map_err(unreadable)?;
     let (mut csrf, mut bytes) = (String::new(), Vec::new());
     while let Some(field) = form.next_field().await.map_err(unreadable)? {
@@ -57,8 +67,18 @@ async fn import(
     teacher.check_csrf(state, &csrf)?;
     teacher.check_course()?;
     let roster = roster::read(&bytes)?;
-    let change = roster::import(state, &roster).await?;
-    Ok((roster.len(), change))
+    let change = roster::import(state, &roster.lines).await?;
+    Ok((roster, change))
+}
+
+/// Names of columns in a line: a gradebook has one for each of its tasks.
+fn shortened(names: &[String]) -> String {
+    let cut = |name: &String| name.chars().filter(|c| !c.is_control()).take(LONGEST_COLUMN).collect::<String>();
+    let mut named: Vec<String> = names.iter().take(LISTED_COLUMNS).map(cut).collect();
+    if names.len() > LISTED_COLUMNS {
+        named.push("…".to_owned());
+    }
+    named.join(", ")
 }
 
 /// An upload that did not arrive, or is no roster by its size alone.

@@ -71,8 +71,10 @@ pub(in crate::service::pages) struct SettingsQuery {
     done: String,
     /// Of a roster: how many students were not on the one before,
     new: usize,
-    /// and how many of that one are not on it.
+    /// how many of that one are not on it,
     gone: usize,
+    /// and which columns of the file were not taken.
+    aside: String,
 }
 
 /// What was typed, where that could not be taken.
@@ -104,18 +106,24 @@ pub(in crate::service::pages) async fn page(
 
 /// What was read of a roster, so that a wrong file or column is seen at once.
 fn imported(frame: &PageFrame, query: &SettingsQuery, roster: &[StudentRecord]) -> String {
-    let SettingsQuery { new, gone, .. } = query;
+    let SettingsQuery { new, gone, aside, .. } = query;
     let all = roster.len();
+    let grouped = roster.iter().filter(|student| !student.group_name.is_empty()).count();
+    let aside = match (aside.as_str(), frame.language) {
+        ("", _) => String::new(),
+        (names, Language::En) => format!("Columns that were not taken: {names}. "),
+        (names, Language::Ja) => format!("取り込まなかった列: {names}。"),
+    };
     let first = roster.iter().take(3).map(|student| format!("{} {}", student.number, student.name).trim().to_owned());
     let first: Vec<String> = first.collect();
     match frame.language {
         Language::En => format!(
             "The roster is imported: {all} on it, {new} of them new; {gone} of the roster before are no longer on it. \
-             It begins with {}.",
+             {grouped} of {all} have a group. {aside}It begins with {}.",
             first.join("; ")
         ),
         Language::Ja => format!(
-            "名簿を取り込みました。{all} 人（新規 {new} 人）です。以前の名簿から外れた学生は {gone} 人です。先頭: {}",
+            "名簿を取り込みました。{all} 人（新規 {new} 人）です。以前の名簿から外れた学生は {gone} 人です。グループのある学生は {all} 人中 {grouped} 人です。{aside}先頭: {}",
             first.join("、")
         ),
     }
