@@ -136,6 +136,21 @@ async fn the_roster_is_the_platforms(database: Database) {
         let lines: Vec<(&str, &str)> = roster.iter().map(|who| (who.number.as_str(), who.name.as_str())).collect();
         assert_eq!(lines, [("S1", "Name of s1"), ("S2", "Name of s2")]);
     }
+    // It says both how many the platform lists and how many there are, and the roster's own addresses stay.
+    assert_eq!(bench.state.store.roster().await.expect("a roster")[1].email, "s2@example.org");
+    let file = "number,name,email\nS1,A,own@example.org\nS2,B,\nS9,C,\n";
+    let put = request("PUT", "/api/v1/roster", "text/csv", file);
+    assert_eq!(bench.send(put).await.status, StatusCode::OK);
+    platform.seen().is_nameless = false;
+    let page = form(&bench, "/teacher/platforms", &format!("wish=roster&platform={id}&link=3")).await;
+    assert!(page.text().contains("The platform lists 2 students. 3 students are on the roster now."), "{page:?}");
+    let japanese = form(&bench, "/teacher/platforms?lang=ja", &format!("wish=roster&platform={id}&link=3")).await;
+    assert!(japanese.text().contains("学生は 2 人です。名簿は 3 人になりました。"), "{japanese:?}");
+    let mails: Vec<String> =
+        bench.state.store.roster().await.expect("a roster").into_iter().map(|student| student.email).collect();
+    assert_eq!(mails, ["own@example.org", "s2@example.org", ""]);
+    let put = request("PUT", "/api/v1/roster", "text/csv", "number,name\nS1,Name of s1\nS2,Name of s2\n");
+    assert_eq!(bench.send(put).await.status, StatusCode::OK);
     // However its pages are named, the list is read to its end, or not at all.
     let fetch = async |next: &str| {
         platform.seen().next_page = Some(next.to_owned());

@@ -9,7 +9,8 @@ use crate::service::acts::Detail;
 use crate::service::errors::Problem;
 use crate::service::identity::{Teacher, new_id};
 use crate::service::lti::known::{self, KnownPlatform};
-use crate::service::lti::{contexts, memberships, registration};
+use crate::service::lti::memberships::{self, FetchedRoster};
+use crate::service::lti::{contexts, registration};
 use crate::service::store::{Deployment, Platform, PlatformCourse, StaffRole};
 use axum::Json;
 use axum::extract::rejection::JsonRejection;
@@ -127,13 +128,6 @@ pub(super) struct ConnectionWish {
 pub(super) struct FetchWish {
     /// The platform's id of its course.
     context: String,
-}
-
-/// How many were fetched.
-#[derive(Serialize, utoipa::ToSchema)]
-pub(super) struct FetchedJson {
-    /// Students of the platform's course, who are on the roster now.
-    students: usize,
 }
 
 fn json(known: KnownPlatform) -> PlatformJson {
@@ -280,7 +274,7 @@ pub(super) async fn connect(
     post, operation_id = "fetch_roster", path = "/api/v1/platforms/{id}/roster", tag = "courses", security(("teacher" = [])),
     params(("id" = String, Path, description = "Id of the platform")),
     request_body = FetchWish,
-    responses((status = 200, description = "Fetched", body = FetchedJson), NotFound, Refusals, Errors)
+    responses((status = 200, description = "Fetched", body = FetchedRoster), NotFound, Refusals, Errors)
 )]
 pub(super) async fn fetch(
     caller: Caller,
@@ -295,6 +289,6 @@ pub(super) async fn fetch(
     let link = links
         .into_iter()
         .find(|link| link.platform_id == platform.id && link.context == wish.context && link.memberships.is_some());
-    let students = memberships::import(&service, &platform, &link.ok_or_else(Problem::not_found)?).await?;
-    Ok(Detail::of(students.to_string()).on(Json(FetchedJson { students }).into_response()))
+    let fetched = memberships::import(&service, &platform, &link.ok_or_else(Problem::not_found)?).await?;
+    Ok(Detail::of(fetched.students.to_string()).on(Json(fetched).into_response()))
 }

@@ -11,7 +11,7 @@ use super::people::{Described, PlatformStudent, student, teaches_no_more};
 use super::platform::{Connections, Failure, parsed};
 use super::{refused, roles};
 use reqwest::Method;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// What this service may read of people.
@@ -41,6 +41,8 @@ struct PlatformMember {
     #[serde(default, deserialize_with = "or_none")]
     family_name: Option<String>,
     #[serde(default, deserialize_with = "or_none")]
+    email: Option<String>,
+    #[serde(default, deserialize_with = "or_none")]
     lis_person_sourcedid: Option<String>,
     #[serde(default, deserialize_with = "or_none")]
     ext_user_username: Option<String>,
@@ -59,20 +61,31 @@ impl PlatformMember {
         roles::staff_role(&self.roles).is_some() && self.is_active()
     }
 
-    fn described(self) -> Described {
+    /// Who that is, and their mail address; empty where the platform shares none.
+    fn described(self) -> (Described, String) {
+        let email = self.email.unwrap_or_default().trim().to_owned();
         let parts = [self.family_name, self.given_name];
         let joined = || parts.iter().flatten().map(String::as_str).collect::<Vec<_>>().join(" ");
-        Described {
+        let who = Described {
             name: self.name.clone().filter(|name| !name.trim().is_empty()).unwrap_or_else(joined),
             numbers: [self.lis_person_sourcedid, self.ext_user_username].into_iter().flatten().collect(),
             subject: self.user_id,
-        }
+        };
+        (who, email)
     }
 }
 
-/// Takes everybody who is a student in a platform's course onto the roster; who stands there already stays. How many they
-/// are. Whom the list has and who teaches there no more loses the role that they have by the platform.
-pub async fn import(service: &Service, platform: &Platform, link: &Link) -> Result<usize, Problem> {
+/// What came of fetching a roster.
+#[derive(Clone, Copy, Debug, Serialize, utoipa::ToSchema)]
+pub struct FetchedRoster {
+    /// Students whom the platform lists in its course.
+    pub students: usize,
+    /// Students who are on the roster now.
+    pub on_roster: usize,
+}
+
+/// Takes everybody who is a student in a platform's course onto the roster; who stands there already stays. Whom the list has and who teaches there no more loses the role that they have by the platform.
+pub async fn import(service: &Service, platform: &Platform, link: &Link) -> Result<FetchedRoster, Problem> {
     let failed = |failure: Failure| {
         tracing::warn!(failure, "the roster of a platform");
         refused(
@@ -85,7 +98,7 @@ pub async fn import(service: &Service, platform: &Platform, link: &Link) -> Resu
     for member in members.iter().filter(|member| !member.teaches()) {
         teaches_no_more(service, platform, &member.user_id).await?;
     }
-    let students: Vec<Described> =
+    let students: Vec<(Described, String)> =
         members.into_iter().filter(PlatformMember::is_student).map(PlatformMember::described).collect();
     if students.is_empty() {
         return Err(failed("it has no students".to_owned()));
@@ -93,7 +106,7 @@ pub async fn import(service: &Service, platform: &Platform, link: &Link) -> Resu
     let before = service.store.roster().await?;
     let mut lines: BTreeMap<String, RosterLine> =
         before.into_iter().map(|student| (student.number.clone(), line(student))).collect();
-    for who in &students {
+    for (who, email) in &students {
         // Whoever has a number is matched by it; the others get one that is made of the platform's id.
         // Who holds the number of one of them by another way stands on the roster, and is asked for the code when they come.
         let (PlatformStudent::Theirs(student) | PlatformStudent::Held(student)) =
@@ -103,11 +116,13 @@ pub async fn import(service: &Service, platform: &Platform, link: &Link) -> Resu
         // A platform may share no names: it takes none away by that.
         let is_named = !who.name.trim().is_empty() && (is_own || student.name.is_empty());
         let name = if is_named { who.name.clone() } else { student.name.clone() };
-        lines.insert(student.number.clone(), RosterLine { name, ..line(student) });
+        // What a file of the teacher's says goes before.
+        let email = if student.email.is_empty() { email.clone() } else { student.email.clone() };
+        lines.insert(student.number.clone(), RosterLine { name, email, ..line(student) });
     }
     let lines: Vec<RosterLine> = lines.into_values().collect();
     roster::import(service, &lines).await?;
-    Ok(students.len())
+    Ok(FetchedRoster { students: students.len(), on_roster: lines.len() })
 }
 
 fn line(student: StudentRecord) -> RosterLine {

@@ -280,7 +280,7 @@ async fn memberships(
     let member = |id: &str, role: &str, status: &str| {
         let role = format!("http://purl.imsglobal.org/vocab/lis/v2/membership#{role}");
         let name = (!platform.seen().is_nameless).then(|| format!("Name of {id}"));
-        json!({ "user_id": id, "name": name, "lis_person_sourcedid": id, "roles": [role], "status": status })
+        json!({ "user_id": id, "name": name, "email": name.as_ref().map(|_| format!("{id}@example.org")), "lis_person_sourcedid": id, "roles": [role], "status": status })
     };
     let kind = (header::CONTENT_TYPE, "application/vnd.ims.lti-nrps.v2.membershipcontainer+json".to_owned());
     if query.contains_key("page") {

@@ -8,7 +8,8 @@ use crate::service::acts::Detail;
 use crate::service::errors::Problem;
 use crate::service::identity::{LecturerPage, Teacher, new_id};
 use crate::service::lti::known::{self, KnownPlatform};
-use crate::service::lti::{self, contexts, memberships, registration};
+use crate::service::lti::memberships::{self, FetchedRoster};
+use crate::service::lti::{self, contexts, registration};
 use crate::service::store::{Link, Platform, StaffRole};
 use askama::Template;
 use axum::Form;
@@ -169,6 +170,19 @@ pub(in crate::service::pages) async fn change(
     }
 }
 
+/// What is said of a roster that was fetched.
+fn said_of(fetched: FetchedRoster, frame: &PageFrame) -> String {
+    let FetchedRoster { students, on_roster } = fetched;
+    let counted = |count: usize| if count == 1 { "1 student".to_owned() } else { format!("{count} students") };
+    match frame.tag() {
+        "ja" => format!("学習プラットフォームの学生は {students} 人です。名簿は {on_roster} 人になりました。"),
+        _ => {
+            let verb = if on_roster == 1 { "is" } else { "are" };
+            format!("The platform lists {}. {} {verb} on the roster now.", counted(students), counted(on_roster))
+        }
+    }
+}
+
 async fn carried_out(
     service: &Service,
     teacher: &Teacher,
@@ -180,12 +194,8 @@ async fn carried_out(
         let platform = platform().await?;
         let links = service.store.links().await?;
         let link = links.into_iter().find(|link| link.platform_id == platform.id && link.link_id == wish.link);
-        let count = memberships::import(service, &platform, &link.ok_or_else(Problem::not_found)?).await?;
-        let notice = match frame.tag() {
-            "ja" => format!("学生 {count} 人を名簿に取り込みました。"),
-            _ => format!("{count} students are on the roster now."),
-        };
-        return Ok(Some(PlatformsNotice { notice: Some(notice), ..PlatformsNotice::default() }));
+        let fetched = memberships::import(service, &platform, &link.ok_or_else(Problem::not_found)?).await?;
+        return Ok(Some(PlatformsNotice { notice: Some(said_of(fetched, frame)), ..PlatformsNotice::default() }));
     }
     teacher.check_role(StaffRole::Administrator)?;
     // What is registered with the first course is changed there.
