@@ -44,11 +44,11 @@ pub async fn of_student(service: &Service, student: &StudentRecord) -> Result<Ve
 }
 
 const README: &str = "Everything that ggrade keeps of one student.\n\
-    student.json  who they are, a list of all hand-ins, and what else names them: extensions, requests for another look,\n\
-    \x20             browsers, archives, learning platforms, the log of what teachers did\n\
+    student.json  who they are, a list of all hand-ins, and what else names them: extensions of theirs and of their\n\
+    \x20             group, requests for another look, browsers, archives, learning platforms, the log of what teachers did\n\
     hand-ins/     the files as they were handed in, each with its report (report.json, report.txt)\n\n\
     ggrade が 1 人の学生について保存しているすべてのデータです。\n\
-    student.json  氏名・番号、提出の一覧、締切の延長、再確認の依頼、ブラウザ、アーカイブ、学習プラットフォーム、操作記録\n\
+    student.json  氏名・番号、提出の一覧、締切の延長（グループのものを含む）、再確認の依頼、ブラウザ、アーカイブ、学習プラットフォーム、操作記録\n\
     hand-ins/     提出されたファイルと採点結果（report.json、report.txt）\n";
 
 /// A hand-in's line in the list; its files and its report go to `entries`.

@@ -12,7 +12,11 @@ use ggrade::service::identity::personal_code;
 use std::sync::Arc;
 use std::time::Duration;
 
-on_both!(a_student_has_a_deadline_of_their_own, a_name_of_a_group_and_of_a_student_is_nobodys);
+on_both!(
+    a_student_has_a_deadline_of_their_own,
+    a_groups_deadline_stands_with_each_of_its_students,
+    a_name_of_a_group_and_of_a_student_is_nobodys
+);
 
 /// 2023-11-15 07:13:20 in Tokyo.
 const NOW: i64 = 1_700_000_000_000;
@@ -82,6 +86,35 @@ async fn a_student_has_a_deadline_of_their_own(database: Database) {
     let own: Vec<&String> = log.iter().filter(|row| row.contains("own deadline")).collect();
     let has = |text: &str| own.iter().any(|row| row.contains("S1") && row.contains(text));
     assert!(own.len() == 3 && has("– 病気") && has("2023-11-15T23:00") && has("2023-11-15T10:00"), "{log:?}");
+    bench.finish().await;
+}
+
+async fn a_groups_deadline_stands_with_each_of_its_students(database: Database) {
+    let bench = Bench::with(database, config(), Arc::new(Fake(|| Ok(()))), Clock::fixed(NOW)).await;
+    file(&bench, "/teacher/roster", "roster", "r.csv", b"number,name,group\nS1,A,Tue\nS2,B,Wed\n").await;
+    let rules = "closes=2023-11-15T08%3A00&hints=full&audience=open";
+    assert_eq!(form(&bench, "/teacher/settings", rules).await.status, StatusCode::SEE_OTHER);
+    let set = form(&bench, "/teacher/extensions", "whose=Tue&closes=2023-11-15T12%3A00&reason=strike").await;
+    assert_eq!(set.status, StatusCode::SEE_OTHER);
+    let page = async |number: &str, language: &str| {
+        let id = bench.state.store.student_by_number(number).await.expect("a store").expect("a student").id;
+        get(&bench, &format!("/teacher/person?key={id}&lang={language}")).await.all(".of-group").concat()
+    };
+    let said = page("S1", "en").await;
+    assert!(said.starts_with("Extension of the group Tue: 15 Nov 2023, 12:00") && said.contains("(strike)"), "{said}");
+    assert!(page("S1", "ja").await.contains("グループの延長 Tue"), "{}", page("S1", "ja").await);
+    assert_eq!(page("S2", "en").await, "");
+    let export = async |number: &str| {
+        let zip = get(&bench, &format!("/api/v1/students/{number}/export")).await.body;
+        let mut zip = zip::ZipArchive::new(std::io::Cursor::new(zip)).expect("an archive");
+        let about = zip.by_name("student.json").expect("a file");
+        serde_json::from_reader::<_, serde_json::Value>(about).expect("JSON")["extensions_of_group"].clone()
+    };
+    let expected = serde_json::json!([{
+        "assignment": "ggsample06", "group": "Tue", "closes_at": "2023-11-15T03:00:00Z", "reason": "strike",
+    }]);
+    assert_eq!(export("S1").await, expected);
+    assert_eq!(export("S2").await, serde_json::json!([]));
     bench.finish().await;
 }
 

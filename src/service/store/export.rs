@@ -9,11 +9,17 @@ use serde_json::{Map, Value, json};
 type ExportedTable = (&'static str, &'static str, &'static [&'static str]);
 
 /// What is kept of a student beside their hand-ins. Numbers are told as texts.
-const KINDS: [ExportedTable; 7] = [
+const KINDS: [ExportedTable; 8] = [
     (
         "extensions",
         "SELECT assignment, CAST(closes_at AS TEXT), reason FROM extensions WHERE student_id = $1 ORDER BY assignment",
         &["assignment", "closes_at", "reason"],
+    ),
+    (
+        "extensions_of_group",
+        "SELECT g.assignment, g.group_name, CAST(g.closes_at AS TEXT), g.reason FROM group_extensions g \
+         JOIN students t ON t.group_name = g.group_name WHERE t.id = $1 ORDER BY g.assignment",
+        &["assignment", "group", "closes_at", "reason"],
     ),
     (
         "requests",

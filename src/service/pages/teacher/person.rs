@@ -59,11 +59,20 @@ struct PersonPage {
 /// The deadline of the homework, and a student's own as its form takes it.
 struct Deadline {
     of_class: TimeElement,
+    /// That of their group, where it has one.
+    of_group: Option<GroupDeadline>,
     /// Id of the student.
     student: String,
     own: String,
     reason: String,
     problem: Option<String>,
+}
+
+/// The later deadline of a group.
+struct GroupDeadline {
+    group: String,
+    until: TimeElement,
+    reason: String,
 }
 
 /// `GET /teacher/person?key=`.
@@ -118,7 +127,13 @@ async fn deadline(
         (None, Some(kept)) => (local_minute(kept.closes_at, frame.course.zone()), kept.reason, None),
         (None, None) => (String::new(), String::new(), None),
     };
-    Ok(Some(Deadline { of_class: frame.deadline(closes), student: student.id, own, reason, problem }))
+    let of_group = group_deadline(state, frame, student.group_name).await?;
+    Ok(Some(Deadline { of_class: frame.deadline(closes), of_group, student: student.id, own, reason, problem }))
+}
+
+async fn group_deadline(state: &State, frame: &PageFrame, group: String) -> Result<Option<GroupDeadline>, Problem> {
+    let kept = state.store.extension(&state.assignment.id, &Beneficiary::Group(group.clone())).await?;
+    Ok(kept.map(|kept| GroupDeadline { group, until: frame.deadline(kept.closes_at), reason: kept.reason }))
 }
 
 /// The page, with a form that was refused.
