@@ -2,6 +2,7 @@
 
 use super::Service;
 use super::errors::Problem;
+use crate::batch::intake::portable;
 use crate::hand_in::HandIn;
 use crate::source::lookalikes::is_bidi;
 use axum::http::{HeaderValue, header};
@@ -68,12 +69,13 @@ fn zipped(hand_in: &HandIn) -> zip::result::ZipResult<Vec<u8>> {
     Ok(zip.finish()?.into_inner())
 }
 
-/// The name of a file that a student named, as a file in a folder: nothing of it leads elsewhere.
+/// The name of a file that a student named, as every system takes it for a file in a folder: nothing of it leads elsewhere.
 pub fn plain_name(name: &str) -> String {
-    let is_plain = |c: char| !matches!(c, '/' | '\\') && !c.is_control() && !is_bidi(c);
+    let is_plain =
+        |c: char| !matches!(c, '/' | '\\' | '<' | '>' | ':' | '"' | '|' | '?' | '*') && !c.is_control() && !is_bidi(c);
     let plain: String = name.chars().map(|c| if is_plain(c) { c } else { '_' }).collect();
     let plain = plain.trim_start_matches('.');
-    if plain.is_empty() { "file".to_owned() } else { plain.to_owned() }
+    if plain.is_empty() { "file".to_owned() } else { portable(plain) }
 }
 
 /// A `Content-Disposition` under which a browser saves a file, whatever its name has in it (RFC 6266).
@@ -97,6 +99,22 @@ mod tests {
             attachment("課\"\r\n.vert"),
             "attachment; filename=\"____.vert\"; filename*=UTF-8''%E8%AA%B2%22%0D%0A.vert"
         );
+    }
+
+    #[test]
+    fn a_plain_name_is_one_on_every_system() {
+        for (name, plain) in [
+            ("課題 (2).vert", "課題 (2).vert"),
+            ("a<b>:\"c|d?e*.vert", "a_b___c_d_e_.vert"),
+            ("..\\up/x", "_up_x"),
+            ("aux.vert", "_aux.vert"),
+            ("CON .vert", "_CON .vert"),
+            ("end. ", "end. _"),
+            ("end.", "end._"),
+            ("..", "file"),
+        ] {
+            assert_eq!(plain_name(name), plain, "{name}");
+        }
     }
 
     #[test]

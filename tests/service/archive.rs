@@ -28,8 +28,10 @@ async fn a_term_is_one_file(database: Database) {
     file(&bench, "/teacher/roster", "roster", "r.csv", "S1,和田 花子\nS2,山本 次郎\n".as_bytes()).await;
     let wrong = sample("wrong/specular-half-unnormalized--average.vert");
     let mut ids = Vec::new();
-    for bytes in [wrong, right()] {
-        ids.push(bench.send(request("POST", "/api/v1/submissions?student=S1", "text/plain", bytes)).await.id());
+    // What a name has in it that Windows does not take is replaced.
+    for (name, bytes) in [("aux%3A%3F.vert", wrong), ("ggsample06.vert", right())] {
+        let address = format!("/api/v1/submissions?student=S1&name={name}");
+        ids.push(bench.send(request("POST", &address, "text/plain", bytes)).await.id());
     }
     let set = form(&bench, &format!("/r/{}/override", ids[1]), "line=specular&points=30&reason=by+hand").await;
     assert_eq!(set.status, StatusCode::SEE_OTHER);
@@ -63,6 +65,7 @@ async fn a_term_is_one_file(database: Database) {
     let sums: Vec<String> = page.select(&sums).map(|line| line.text().collect()).collect();
     assert_eq!(sums, ["S1 和田 花子9090", "S2 山本 次郎–0"]);
     assert!(text("gradebook.csv").contains("\nS1,和田 花子,90,90\r\n"), "{}", text("gradebook.csv"));
+    assert!(files.contains_key("ggsample06/hand-ins/S1/01/aux__.vert"), "{:?}", files.keys());
     assert_eq!(files["ggsample06/hand-ins/S1/02/ggsample06.vert"], right());
     let page = text("ggsample06/students/S1.html");
     assert!(

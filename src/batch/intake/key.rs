@@ -47,16 +47,16 @@ fn plain(who: &Who) -> String {
     }
 }
 
-/// A name of letters, digits, `-`, `_` and `.` as every system takes it for that of a file or a folder: Windows takes no device and
-/// drops a dot at the end, and two dots are the folder above.
+/// A name without signs that some system refuses, as every system takes it for that of a file or a folder: Windows takes no device and
+/// drops a dot or a space at the end, and two dots are the folder above.
 pub fn portable(name: &str) -> String {
     let start = if is_device(name) { "_" } else { "" };
-    let end = if name.ends_with('.') { "_" } else { "" };
+    let end = if name.ends_with(['.', ' ']) { "_" } else { "" };
     format!("{start}{name}{end}")
 }
 
 fn is_device(name: &str) -> bool {
-    let stem = name.split('.').next().unwrap_or_default().to_ascii_lowercase();
+    let stem = name.split('.').next().unwrap_or_default().trim_end().to_ascii_lowercase();
     let is_port = |device| stem.strip_prefix(device).is_some_and(|n: &str| n.len() == 1);
     DEVICES.contains(&stem.as_str()) || is_port("com") || is_port("lpt")
 }
@@ -118,6 +118,8 @@ mod tests {
             ("..", ".._"),
             ("CON", "_CON"),
             ("nul.x", "_nul.x"),
+            ("aux .x", "_aux .x"),
+            ("x ", "x _"),
             ("COM1", "_COM1"),
             ("COMA2", "COMA2"),
         ] {

@@ -8,6 +8,7 @@ use crate::batch::class::{Class, ClassEntry, Outcome};
 use crate::batch::formats::plain::cell;
 use crate::batch::formats::{grades, page as class_page};
 use crate::fault::Fault;
+use crate::hand_in::{HandIn, HandedInFile};
 use crate::language::Language;
 use crate::report::html::BASE_STYLE;
 use crate::report::json;
@@ -179,8 +180,9 @@ async fn homework(
             let submission = &row.row.submission;
             let into = format!("hand-ins/{}/{:02}", student.key, place + 1);
             std::fs::create_dir_all(folder.join(&into)).map_err(failed)?;
-            for file in state.store.hand_in(&submission.id).await?.unwrap_or_default().files {
-                let path = format!("{into}/{}", download::plain_name(&file.name));
+            let hand_in = state.store.hand_in(&submission.id).await?.unwrap_or_default();
+            for (name, file) in plain_names(&hand_in).into_iter().zip(&hand_in.files) {
+                let path = format!("{into}/{name}");
                 std::fs::write(folder.join(&path), &file.bytes).map_err(failed)?;
                 files.push((path, TimeElement::zoned(submission.received_at, language, zone)));
             }
@@ -203,6 +205,16 @@ async fn homework(
     let written = blocking(state, move |_| written(&class, &folder));
     written.await?;
     Ok(ArchivedHomework { id, title: language.of(&title).to_owned(), students: listed })
+}
+
+/// The names of the files of a hand-in as every system takes them, each another one.
+fn plain_names(hand_in: &HandIn) -> Vec<String> {
+    let mut taken = HashSet::new();
+    let name = |(place, file): (usize, &HandedInFile)| {
+        let name = download::plain_name(&file.name);
+        if taken.insert(name.to_lowercase()) { name } else { format!("{}-{name}", place + 1) }
+    };
+    hand_in.files.iter().enumerate().map(name).collect()
 }
 
 fn points(total: f64, most: f64) -> String {
