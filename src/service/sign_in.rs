@@ -137,16 +137,26 @@ async fn finish(
         Issuer { issuer: &issuer, client_id: &provider.client_id, keys_url: &found.jwks_uri, algorithms: &algorithms };
     let mut claims: Map<String, Value> =
         id_tokens::read(&service.lti, of, &tokens.id).await.map_err(|why| provider.distrusted(&why.en, &why.ja))?;
-    if claims.get("nonce").and_then(Value::as_str) != Some(begun.nonce.as_str()) {
+    check_claims(provider, &claims, &begun.nonce)?;
+    provider.complete(&service, &found, &tokens, &mut claims).await?;
+    let (full, short) = provider.names(&claims)?;
+    let said = proxied.map(|Extension(said)| said);
+    enter(&service, (&headers, visitor, said.as_ref()), (&full, &short), begun.homework.as_deref()).await
+}
+
+/// Whether claims answer this sign-in and say who somebody is (OpenID Connect Core, sections 2 and 3.1.3.7).
+fn check_claims(provider: &Provider, claims: &Map<String, Value>, nonce: &str) -> Result<(), Problem> {
+    let text = |claim: &str| claims.get(claim).and_then(Value::as_str).unwrap_or_default();
+    if text("nonce") != nonce {
         return Err(provider.distrusted(
             "it is not the answer to this sign-in (nonce)",
             "このログインに対するものではありません (nonce)",
         ));
     }
-    provider.complete(&service, &found, &tokens, &mut claims).await?;
-    let (full, short) = provider.names(&claims)?;
-    let said = proxied.map(|Extension(said)| said);
-    enter(&service, (&headers, visitor, said.as_ref()), (&full, &short), begun.homework.as_deref()).await
+    if text("sub").is_empty() {
+        return Err(provider.distrusted("it does not say who somebody is (sub)", "利用者の識別子 (sub) がありません"));
+    }
+    Ok(())
 }
 
 /// Lets somebody in by their name: with the account of this login, or as the student with this number.

@@ -151,13 +151,16 @@ async fn every_forged_answer_is_refused(database: Database) {
     let clock = Clock::fixed(i64::try_from(jsonwebtoken::get_current_timestamp()).expect("a time") * 1000);
     let (bench, issuer) = bench(database, clock.clone()).await;
     let now = jsonwebtoken::get_current_timestamp();
-    let changes: [(&str, Value, &str); 15] = [
+    let changes: [(&str, Value, &str); 18] = [
         ("iss", json!("https://evil.example"), "another issuer"),
         ("aud", json!("another-client"), "another client"),
         ("aud", json!([CLIENT, "another-client"]), "another client"),
         ("azp", json!("another-client"), "another client"),
         ("nonce", json!("another nonce"), "not the answer to this sign-in"),
         ("nonce", Value::Null, "not the answer to this sign-in"),
+        ("sub", Value::Null, "does not say who"),
+        ("sub", json!(""), "does not say who"),
+        ("sub", json!(7), "does not say who"),
         ("exp", json!(now - 120), "too old"),
         ("iat", json!(now + 3600), "of the future"),
         ("iat", Value::Null, "has no time"),
