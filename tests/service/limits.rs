@@ -2,6 +2,7 @@
 
 use crate::bench::{Bench, Fake, config, send};
 use crate::cluster::Database;
+use crate::staff::{self, Browser, OWN, administrator};
 use axum::Router;
 use axum::body::Body;
 use axum::http::{Request, StatusCode, header};
@@ -127,6 +128,30 @@ async fn a_network_of_ipv6_is_one_visitor_and_the_teachers_program_none() {
         statuses.push(with("guessed").await.status);
     }
     assert_eq!(statuses, [StatusCode::CREATED, StatusCode::CREATED, StatusCode::TOO_MANY_REQUESTS]);
+    bench.finish().await;
+}
+
+#[tokio::test]
+async fn wrong_passwords_lock_their_own_login_alone() {
+    let clock = Clock::fixed(1_700_000_000_000);
+    let bench = staff::bench(Database::sqlite(), clock.clone()).await;
+    administrator(&bench).await;
+    clock.advance(Duration::from_secs(60));
+    let mut browser = Browser::new(&bench);
+    // All come from one address.
+    for _ in 0..5 {
+        assert_eq!(browser.login("ta", "a wrong one").await.status, StatusCode::FORBIDDEN);
+    }
+    for login in ["ta", " TA"] {
+        assert_eq!(browser.login(login, "a wrong one").await.status, StatusCode::TOO_MANY_REQUESTS);
+    }
+    assert_eq!(browser.login("prof@example.ac.jp", OWN).await.status, StatusCode::SEE_OTHER);
+    // Whoever tries many names is stopped by the address.
+    let mut statuses = Vec::new();
+    for number in 0..60 {
+        statuses.push(browser.login(&format!("guess{number}"), "a wrong one").await.status);
+    }
+    assert_eq!((statuses[0], statuses[59]), (StatusCode::FORBIDDEN, StatusCode::TOO_MANY_REQUESTS));
     bench.finish().await;
 }
 

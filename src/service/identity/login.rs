@@ -43,7 +43,7 @@ pub async fn login(
     form: &LoginForm,
 ) -> Result<Response, Problem> {
     visitor.check_csrf(service, &form.csrf)?;
-    service.limits.login(client)?;
+    service.limits.login(client, &form.login)?;
     let session = match form.password.len() {
         0..=LONGEST_PASSWORD => opened(service, &form.login, &form.password).await?,
         _ => None,

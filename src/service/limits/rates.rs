@@ -19,8 +19,14 @@ use std::net::IpAddr;
 use std::num::NonZeroU32;
 use std::time::Duration;
 
-/// Attempts to log in from one address: this many at once, then one every so often.
+/// Attempts to log in by one name from one address: this many at once, then one every so often.
 const LOGINS_PER_MINUTE: u32 = 5;
+
+/// The same by whatever names: a university's staff may be behind one address.
+const LOGINS_PER_ADDRESS: u32 = 60;
+
+/// Longest name by which attempts are told apart, in characters; a login is shorter.
+const LONGEST_LOGIN: usize = 100;
 
 /// Seconds in which a rate's quota comes back.
 const WINDOW: u32 = 60;
@@ -33,7 +39,8 @@ const STANDING: HeaderName = HeaderName::from_static("ratelimit");
 pub struct RateLimits {
     visitors: Rate<String>,
     addresses: Rate<IpAddr>,
-    logins: Rate<IpAddr>,
+    logins: Rate<LoginKey>,
+    logins_of_address: Rate<IpAddr>,
 }
 
 /// How many requests whoever is told apart by a `K` may send: as many at once as in a minute, and then as they come back.
@@ -74,6 +81,7 @@ impl RateLimits {
             visitors: Rate::new("visitor", "rate-student", config.uploads_per_student, clock),
             addresses: Rate::new("address", "rate-address", config.uploads_per_address, clock),
             logins: Rate::new("login", "rate-login", LOGINS_PER_MINUTE, clock),
+            logins_of_address: Rate::new("logins", "rate-login", LOGINS_PER_ADDRESS, clock),
         }
     }
 
@@ -89,9 +97,11 @@ impl RateLimits {
         (counted, result)
     }
 
-    /// Counts an attempt to log in.
-    pub fn login(&self, client: &Client) -> Result<(), Problem> {
-        self.logins.count(&client.address, &mut Counted::default())
+    /// Counts an attempt to log in by a name: whoever guesses at one locks it for their address, and no other.
+    pub fn login(&self, client: &Client, login: &str) -> Result<(), Problem> {
+        let login = login.trim().chars().take(LONGEST_LOGIN).collect::<String>().to_ascii_lowercase();
+        self.logins_of_address.count(&client.address, &mut Counted::default())?;
+        self.logins.count(&LoginKey { login, address: client.address }, &mut Counted::default())
     }
 
     /// Forgets who has been quiet for long.
@@ -99,6 +109,7 @@ impl RateLimits {
         self.visitors.limiter.retain_recent();
         self.addresses.limiter.retain_recent();
         self.logins.limiter.retain_recent();
+        self.logins_of_address.limiter.retain_recent();
     }
 }
 
@@ -148,6 +159,19 @@ impl Key for String {
 impl Key for IpAddr {
     fn whose(&self) -> Text {
         Text::new(format!("from the network address {self}"), format!("ネットワークアドレス {self} から"))
+    }
+}
+
+/// Who tries to log in, from where.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+struct LoginKey {
+    login: String,
+    address: IpAddr,
+}
+
+impl Key for LoginKey {
+    fn whose(&self) -> Text {
+        self.address.whose()
     }
 }
 

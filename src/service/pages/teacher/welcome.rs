@@ -82,7 +82,7 @@ pub(in crate::service::pages) async fn choose(
     Form(chosen): Form<PasswordForm>,
 ) -> Result<Response, Problem> {
     visitor.check_csrf(&service, &chosen.csrf)?;
-    service.limits.login(&client)?;
+    service.limits.login(&client, &secret)?;
     let said = proxied.as_ref().map(|Extension(said)| said);
     match identity::choose_password(&service, &secret, &chosen.password).await {
         Ok(member) => identity::open_for(&service, member, "/teacher", (Jar::Own, said)).await,
