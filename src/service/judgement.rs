@@ -107,9 +107,13 @@ pub async fn override_line(
     let id = &stored.submission.id;
     let Some((points, reason)) = given else {
         let was = service.store.set_override(id, line, None, staff_id(teacher), service.clock.now()).await?;
-        return Ok(was.then(|| format!("{line}: –")));
+        return Ok(was.then(|| match of_rubric.map(|it| (it.points, it.graded)) {
+            Some((points, Some(graded))) => format!("{line}: {points} → {graded}"),
+            _ => format!("{line}: –"),
+        }));
     };
-    let most = of_rubric.ok_or_else(|| no_such_line(report, line))?.max_points;
+    let of_rubric = of_rubric.ok_or_else(|| no_such_line(report, line))?;
+    let (before, most) = (of_rubric.points, of_rubric.max_points);
     if !(0.0..=most).contains(&points) {
         return Err(Problem::unprocessable(
             format!("The points of this line are a number from 0 to {most}."),
@@ -118,7 +122,7 @@ pub async fn override_line(
     }
     let reason = TextKind::Reason.read(reason)?;
     service.store.set_override(id, line, Some((points, &reason)), staff_id(teacher), service.clock.now()).await?;
-    Ok(Some(format!("{line}: {points}, {reason}")))
+    Ok(Some(format!("{line}: {before} → {points}, {reason}")))
 }
 
 /// Adds a comment on a line of a file that was handed in.

@@ -126,7 +126,10 @@ async fn an_overridden_line_counts_and_its_reason_is_read(database: Database) {
     assert_eq!(stranger.status, StatusCode::UNAUTHORIZED);
     let log = get(&bench, "/teacher/log").await.all(".people tbody tr");
     let acts = log.iter().filter(|row| row.contains("Overrode points") && row.contains("S1")).count();
-    assert!(acts == 3 && log.concat().contains("specular: 35, 式は正しい"), "{log:?}");
+    assert_eq!(acts, 3, "{log:?}");
+    for said in ["specular: 0 → 35, 式は正しい", "specular: 35 → 0", "specular: 0 → 40, x"] {
+        assert!(log.concat().contains(said), "{said}: {log:?}");
+    }
     bench.finish().await;
 }
 
