@@ -4,6 +4,7 @@ use super::State;
 use super::clock::Millis;
 use super::errors::Problem;
 use super::identity::normal_number;
+use super::rules::check_date;
 use super::store::{Beneficiary, Extension};
 use super::texts::check_length;
 use axum::http::StatusCode;
@@ -50,6 +51,7 @@ pub async fn grant(
     closes_at: Option<Millis>,
     reason: &str,
 ) -> Result<String, Problem> {
+    check_date(closes_at).map_err(|wrong| Problem::unprocessable(wrong.en, wrong.ja))?;
     let id = &state.assignment.id;
     let of_class = state.store.assignment(id).await?.closes_at;
     if closes_at.is_some_and(|own| of_class.is_none_or(|class| own <= class)) {

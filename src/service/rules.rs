@@ -4,7 +4,9 @@ use super::clock::{Millis, local_moment};
 use super::store::{AssignmentSettings, CoursePlace, word};
 use crate::language::Text;
 use crate::report::text::number;
-use jiff::tz::TimeZone;
+use jiff::Timestamp;
+use jiff::tz::{Offset, TimeZone};
+use std::ops::RangeInclusive;
 
 /// A minute.
 pub const MINUTE: Millis = 60_000;
@@ -15,12 +17,31 @@ pub const LONGEST_GRACE: Millis = 10_080;
 /// Most points that a homework counts.
 const MOST_POINTS: f64 = 100_000.0;
 
+/// Most attempts of one student.
+const MOST_ATTEMPTS: u64 = 1_000_000;
+
+/// The years in which something may be due: others are typing errors.
+const YEARS: RangeInclusive<i16> = 2000..=2999;
+
 /// What is said of a number of attempts that is none.
 pub fn no_attempts() -> Text {
     Text::new(
-        "Attempts: a whole number above 0, or nothing.",
-        "提出回数は 1 以上の整数で入力するか、空欄にしてください。",
+        format!("Attempts: a whole number from 1 to {MOST_ATTEMPTS}, or nothing."),
+        format!("提出回数は 1 から {MOST_ATTEMPTS} までの整数で入力するか、空欄にしてください。"),
     )
+}
+
+/// A date, where it is in one of the years in which something may be.
+pub fn check_date(at: Option<Millis>) -> Result<(), Text> {
+    let year = |at: Timestamp| Offset::UTC.to_datetime(at).year();
+    if at.is_none_or(|at| Timestamp::from_millisecond(at).is_ok_and(|at| YEARS.contains(&year(at)))) {
+        return Ok(());
+    }
+    let (first, last) = (YEARS.start(), YEARS.end());
+    Err(Text::new(
+        format!("A date is in the years {first} to {last}. Correct the year."),
+        format!("日時は {first} 年から {last} 年までで入力してください。年を確認してください。"),
+    ))
 }
 
 /// What a homework counts in its course, where it may count that.
@@ -35,10 +56,13 @@ pub fn check_points(points: f64) -> Result<f64, Text> {
 pub fn check(rules: &AssignmentSettings) -> Result<(), Text> {
     let (opens, due, late) = (rules.opens_at, rules.closes_at, &rules.late);
     let is_share = |number: f64| (0.0..=100.0).contains(&number);
+    for date in [opens, due, late.until] {
+        check_date(date)?;
+    }
     if opens.zip(due).is_some_and(|(opens, due)| due <= opens) {
         return Err(Text::new("The end must come after the beginning.", "終了日時は開始日時より後にしてください。"));
     }
-    if rules.attempts == Some(0) {
+    if rules.attempts.is_some_and(|attempts| !(1..=MOST_ATTEMPTS).contains(&attempts)) {
         return Err(no_attempts());
     }
     if !(0..=LONGEST_GRACE * MINUTE).contains(&late.grace) {

@@ -177,7 +177,10 @@ async fn what_makes_no_sense_changes_nothing(database: Database) {
     for wrong in [
         json!({ "due_at": "2030-01-01T00:00:00Z", "opens_at": "2031-01-01T00:00:00Z" }),
         json!({ "due_at": "-000001-01-01T00:00:00Z" }),
+        json!({ "due_at": "0001-01-01T00:00:00Z" }),
+        json!({ "shown_from": "3000-01-01T00:00:00Z" }),
         json!({ "attempts": 0 }),
+        json!({ "attempts": 99_999_999_999_u64 }),
         json!({ "attempts": -1 }),
         json!({ "late_percent": 101 }),
         json!({ "late_until": "2030-01-01T00:00:00Z" }),

@@ -257,6 +257,12 @@ async fn what_cannot_be_read_leads_back_to_its_form(database: Database) {
     let wrong = form(&bench, "/teacher/settings", "attempts=none&opens=&closes=2026-12-24T18%3A00").await;
     held(&wrong, "/teacher/settings", "Attempts").await;
     assert!(wrong.text().contains("2026-12-24T18:00"), "what was typed stays");
+    for (fields, said) in [
+        ("attempts=99999999999", "a whole number from 1 to 1000000"),
+        ("closes=0001-01-01T00%3A00", "A date is in the years 2000 to 2999."),
+    ] {
+        held(&form(&bench, "/teacher/settings", fields).await, "/teacher/settings", said).await;
+    }
     // What leads nowhere else leads to the class.
     let lost = get(&bench, "/teacher/batches/none").await;
     assert!(lost.text().contains("href=\"/teacher\"") && lost.status == StatusCode::NOT_FOUND);

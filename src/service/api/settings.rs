@@ -125,6 +125,7 @@ impl SettingsJson {
         };
         let refused = |wrong: Text| Problem::unprocessable(wrong.en, wrong.ja);
         rules::check(&rules).map_err(refused)?;
+        rules::check_date(millis(self.shown_from)).map_err(refused)?;
         let points = self.points.map(rules::check_points).transpose().map_err(refused)?;
         let shown_from = millis(self.shown_from).filter(|_| !self.is_hidden);
         let place = CoursePlace { points, is_hidden: i64::from(self.is_hidden), shown_from, ..place };

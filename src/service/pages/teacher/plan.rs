@@ -221,7 +221,8 @@ fn read(frame: &PageFrame, fields: &Fields, place: CoursePlace) -> Result<Course
         }
     };
     let from = field(fields, "from", &place.id).unwrap_or_default();
-    let from = datetime::parse(from, frame.course.zone(), place.shown_from);
+    let from = datetime::parse(from, frame.course.zone(), place.shown_from)
+        .and_then(|from| rules::check_date(from).map(|()| from));
     let from = from.map_err(|wrong| wrong.get(frame.language).to_owned())?;
     let (is_hidden, shown_from) = match (field(fields, "seen", &place.id), from) {
         (Some("hidden"), _) => (1, None),
