@@ -7,7 +7,11 @@ use crate::{on_both, sample};
 use axum::http::StatusCode;
 use serde_json::json;
 
-on_both!(zone_and_language_are_the_courses, a_date_that_comes_back_as_it_was_shown_does_not_move,);
+on_both!(
+    zone_and_language_are_the_courses,
+    a_date_that_comes_back_as_it_was_shown_does_not_move,
+    a_time_that_the_clocks_leave_out_or_repeat_is_said,
+);
 
 async fn zone_and_language_are_the_courses(database: Database) {
     let bench = Bench::new(database).await;
@@ -78,5 +82,31 @@ async fn a_date_that_comes_back_as_it_was_shown_does_not_move(database: Database
     let extensions = get(&bench, "/api/v1/extensions").await.json();
     assert_eq!(extensions["extensions"][0]["due_at"], "2027-11-01T22:59:59Z");
     assert_eq!(extensions["extensions"][0]["reason"], "well");
+    bench.finish().await;
+}
+
+async fn a_time_that_the_clocks_leave_out_or_repeat_is_said(database: Database) {
+    let bench = Bench::new(database).await;
+    assert_eq!(form(&bench, "/teacher/course", "zone=Europe%2FBerlin&language=en").await.status, 303);
+    bench.state.store.student("S1", 0).await.expect("a store").expect("a student");
+    let said = async |address: &str, fields: &str| {
+        let done = form(&bench, address, fields).await;
+        assert_eq!(done.status, 303, "{done:?}");
+        get(&bench, done.header("location")).await.all(".unclear-times").concat()
+    };
+    let skipped = "There is no 2027-03-28 02:30, because the clocks are set forward: 28 Mar 2027, 03:30 CEST is taken.";
+    let twice =
+        "2027-10-31 02:30 comes twice, because the clocks are set back: the first, 31 Oct 2027, 02:30 CEST, is taken.";
+    let rules = "hints=full&audience=open&closes=2027-03-28T02%3A30";
+    assert_eq!(said("/teacher/settings", rules).await, skipped);
+    let extension = "whose=S1&reason=ill&closes=2027-10-31T02%3A30";
+    assert_eq!(said("/teacher/extensions", extension).await, twice);
+    assert_eq!(said("/teacher/extensions", extension).await, "", "it is not typed anew");
+    let shown = "seen.ggsample06=from&from.ggsample06=2027-03-28T02%3A30";
+    assert_eq!(said("/teacher/plan", shown).await, skipped);
+    let page = get(&bench, "/teacher/settings?unclear=2027-03-28T02:30&lang=ja").await;
+    assert!(page.all(".unclear-times")[0].contains("2027年3月28日 03:30 CEST として設定しました"), "{page:?}");
+    // What is no such time is not repeated.
+    assert!(get(&bench, "/teacher/settings?unclear=Hello").await.all(".unclear-times").is_empty());
     bench.finish().await;
 }

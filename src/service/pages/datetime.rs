@@ -3,8 +3,14 @@
 use crate::language::{Language, Text};
 use crate::service::clock::{Millis, has_rfc3339, local_minute};
 use jiff::civil::DateTime;
-use jiff::tz::TimeZone;
+use jiff::tz::{AmbiguousOffset, TimeZone};
 use jiff::{Timestamp, Zoned};
+
+/// A local time as a field has it.
+const MINUTE: &str = "%Y-%m-%dT%H:%M";
+
+/// The word of a query that has local times which a zone has twice or not at all.
+const UNCLEAR: &str = "unclear";
 
 /// A moment for a `time` element.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -66,6 +72,50 @@ pub(super) fn parse(field: &str, zone: &TimeZone, shown: Option<Millis>) -> Resu
     Ok(Some(at.as_millisecond()))
 }
 
+/// An address with the local times among fields and what they showed that were typed anew and are in the zone twice or not at all,
+/// because the clocks are set then: its page says which moments they are taken for.
+pub(super) fn with_unclear(address: &str, fields: &[(&str, Option<Millis>)], zone: &TimeZone) -> String {
+    let unclear = |(field, shown): &(&str, Option<Millis>)| {
+        let is_new = shown.is_none_or(|at| local_minute(at, zone) != field.trim());
+        let local: DateTime = field.trim().parse().ok().filter(|_| is_new)?;
+        zone.to_ambiguous_timestamp(local).is_ambiguous().then(|| local.strftime(MINUTE).to_string())
+    };
+    let unclear: Vec<String> = fields.iter().filter_map(unclear).collect();
+    if unclear.is_empty() {
+        return address.to_owned();
+    }
+    format!("{address}{}{UNCLEAR}={}", if address.contains('?') { '&' } else { '?' }, unclear.join(","))
+}
+
+/// What a page says of the local times in its query that are unclear.
+pub(super) fn said_of_unclear(query: &str, language: Language, zone: &TimeZone) -> Option<String> {
+    let times = query.split('&').find_map(|pair| pair.strip_prefix(UNCLEAR)?.strip_prefix('='))?;
+    let said = |time: &str| {
+        let local: DateTime = time.parse().ok()?;
+        let taken = local.to_zoned(zone.clone()).ok()?.timestamp().as_millisecond();
+        let taken = TimeElement::zoned(taken, language, zone).text;
+        let offset = zone.to_ambiguous_timestamp(local).offset();
+        let local = local.strftime("%Y-%m-%d %H:%M");
+        match (offset, language) {
+            (AmbiguousOffset::Unambiguous { .. }, _) => None,
+            (AmbiguousOffset::Gap { .. }, Language::En) => {
+                Some(format!("There is no {local}, because the clocks are set forward: {taken} is taken."))
+            }
+            (AmbiguousOffset::Gap { .. }, Language::Ja) => {
+                Some(format!("{local} は時計が進められるため存在しません。{taken} として設定しました。"))
+            }
+            (AmbiguousOffset::Fold { .. }, Language::En) => {
+                Some(format!("{local} comes twice, because the clocks are set back: the first, {taken}, is taken."))
+            }
+            (AmbiguousOffset::Fold { .. }, Language::Ja) => {
+                Some(format!("{local} は時計が戻されるため 2 回あります。1 回目の {taken} として設定しました。"))
+            }
+        }
+    };
+    let said: Vec<String> = times.split(',').filter_map(said).collect();
+    Some(said.join(" ")).filter(|said| !said.is_empty())
+}
+
 fn no_date() -> Text {
     Text::new("A date has the form 2026-12-31T23:59.", "日時は 2026-12-31T23:59 の形で入力してください。")
 }
@@ -96,6 +146,22 @@ mod tests {
         assert_eq!(named(TimeZone::get("Asia/Tokyo").expect("a zone")), "1 Jan 1970, 09:00 JST");
         assert_eq!(named(TimeZone::get("Asia/Dubai").expect("a zone")), "1 Jan 1970, 04:00 UTC+04");
         assert_eq!(named(TimeZone::UTC), "1 Jan 1970, 00:00 UTC");
+    }
+
+    #[test]
+    fn what_the_clocks_leave_out_or_repeat_is_said() {
+        let berlin = zone("Europe/Berlin");
+        let said = |field: &str, shown| {
+            let address = with_unclear("/teacher/settings?done=saved", &[(field, shown), ("", None)], &berlin);
+            said_of_unclear(address.split_once('?').expect("a query").1, Language::En, &berlin)
+        };
+        let skipped =
+            "There is no 2027-03-28 02:30, because the clocks are set forward: 28 Mar 2027, 03:30 CEST is taken.";
+        assert_eq!(said("2027-03-28T02:30", None).as_deref(), Some(skipped));
+        let twice = "2027-10-31 02:30 comes twice, because the clocks are set back: the first, 31 Oct 2027, 02:30 CEST, is taken.";
+        assert_eq!(said("2027-10-31T02:30", Some(AT)).as_deref(), Some(twice));
+        assert_eq!(said("2027-10-31T02:30", Some(1_824_946_200_000)), None, "it is not typed anew");
+        assert_eq!(said("2027-10-31T04:30", None), None);
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! What every page has around its content: language, time zone, address, assets.
 
 use super::assets;
-use super::datetime::TimeElement;
+use super::datetime::{self, TimeElement};
 use super::who::KnownStudent;
 use crate::language::Language;
 use crate::report::html::SYMBOLS;
@@ -167,6 +167,11 @@ impl PageFrame {
     /// The same to the second, for a receipt.
     pub(super) fn exact_datetime(&self, at: Millis) -> TimeElement {
         TimeElement::exact(at, self.language, self.course.zone())
+    }
+
+    /// What is to be said of a local time that was set and that the course's zone has twice or not at all.
+    pub fn unclear_times(&self) -> Option<String> {
+        datetime::said_of_unclear(self.uri.query()?, self.language, self.course.zone())
     }
 
     /// The language as a BCP 47 tag.

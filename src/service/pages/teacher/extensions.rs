@@ -56,17 +56,25 @@ pub(in crate::service::pages) struct ExtensionForm {
 }
 
 impl ExtensionForm {
-    /// Does what the form asks for; what the log says of it.
-    async fn carry_out(&self, state: &State, frame: &PageFrame, to: &Beneficiary) -> Result<Detail, Problem> {
+    /// Does what the form asks for, and goes on to a page.
+    async fn carry_out(
+        &self,
+        state: &State,
+        frame: &PageFrame,
+        to: &Beneficiary,
+        page: &str,
+    ) -> Result<Response, Problem> {
         let kept = state.store.extension(&state.assignment.id, to).await?.map(|kept| kept.closes_at);
         let closes_at = datetime::parse(&self.closes, frame.course.zone(), kept)
             .map_err(|wrong| Problem::unprocessable(wrong.en, wrong.ja))?;
         let reason = grant(state, to, closes_at, &self.reason).await?;
         let until = if closes_at.is_some() { self.closes.as_str() } else { "–" };
-        Ok(match to {
+        let detail = match to {
             Beneficiary::Student(id) => Detail { text: format!("{until} {reason}"), ..Detail::about(id) },
             Beneficiary::Group(group) => Detail::of(format!("{group}: {until} {reason}")),
-        })
+        };
+        let page = datetime::with_unclear(page, &[(&self.closes, kept)], frame.course.zone());
+        Ok(detail.on(Redirect::to(&page).into_response()))
     }
 }
 
@@ -88,11 +96,11 @@ pub(in crate::service::pages) async fn set(
 ) -> Result<Response, Problem> {
     teacher.check_csrf(&state, &asked.csrf)?;
     let done = match beneficiary(&state, &asked.whose).await {
-        Ok(to) => asked.carry_out(&state, &frame, &to).await,
+        Ok(to) => asked.carry_out(&state, &frame, &to, &format!("{}/extensions", frame.teacher())).await,
         Err(problem) => Err(problem),
     };
     match done {
-        Ok(detail) => Ok(detail.on(Redirect::to(&format!("{}/extensions", frame.teacher())).into_response())),
+        Ok(response) => Ok(response),
         Err(problem) => {
             let said = said_of(problem, &frame)?;
             Ok(refused(view(&state, &teacher, frame, asked, Some(said)).await?, StatusCode::UNPROCESSABLE_ENTITY))
@@ -109,17 +117,14 @@ pub(in crate::service::pages) async fn of_student(
 ) -> Result<Response, Problem> {
     teacher.check_csrf(&state, &asked.csrf)?;
     let student = state.store.student_by_id(&asked.student).await?.ok_or_else(Problem::not_found)?;
-    match asked.carry_out(&state, &frame, &Beneficiary::Student(student.id.clone())).await {
-        Ok(detail) => {
-            let page = format!("{}/person?key={}", frame.teacher(), student.id);
-            Ok(detail.on(Redirect::to(&page).into_response()))
-        }
+    let page = format!("{}/person?key={}", frame.teacher(), student.id);
+    match asked.carry_out(&state, &frame, &Beneficiary::Student(student.id.clone()), &page).await {
         Err(problem) if problem.status == StatusCode::UNPROCESSABLE_ENTITY => {
             let wrong = problem.detail.get(frame.language).to_owned();
             let page = person::view(&state, &teacher, &Whom::of(student.id), frame, Some((asked, wrong))).await?;
             Ok(refused(page, StatusCode::UNPROCESSABLE_ENTITY))
         }
-        Err(problem) => Err(problem),
+        done => done,
     }
 }
 

@@ -7,7 +7,7 @@ use super::{Tab, refused};
 use crate::report::text::number;
 use crate::sandbox::MOST_ASSIGNMENTS;
 use crate::service::acts::{Detail, changes};
-use crate::service::clock::local_minute;
+use crate::service::clock::{Millis, local_minute};
 use crate::service::courses;
 use crate::service::errors::Problem;
 use crate::service::identity::{LecturerPage, Teacher};
@@ -148,16 +148,25 @@ pub(in crate::service::pages) async fn save(
     }
     match places(&service, &frame, &fields, &added).await? {
         Ok(places) => {
-            let before = described(&service, &frame, &places, service.store.places().await?);
+            let known = service.store.places().await?;
+            let page = datetime::with_unclear("/teacher/plan", &shown_dates(&fields, &known), frame.course.zone());
+            let before = described(&service, &frame, &places, known);
             courses::set_places(&service, places.clone()).await?;
             let after = described(&service, &frame, &places, service.store.places().await?);
-            Ok(Detail::of(changes(&before, &after)).on(Redirect::to("/teacher/plan").into_response()))
+            Ok(Detail::of(changes(&before, &after)).on(Redirect::to(&page).into_response()))
         }
         Err(wrong) => {
             let page = view(&service, frame, &teacher, &fields, Some(wrong)).await?;
             Ok(refused(page, StatusCode::UNPROCESSABLE_ENTITY))
         }
     }
+}
+
+/// The dates from which homeworks are to be shown, with those from which they were.
+fn shown_dates<'a>(fields: &'a Fields, known: &[CoursePlace]) -> Vec<(&'a str, Option<Millis>)> {
+    let is_dated = |place: &&CoursePlace| field(fields, "seen", &place.id) == Some("from");
+    let date = |place: &CoursePlace| Some((field(fields, "from", &place.id)?, place.shown_from));
+    known.iter().filter(is_dated).filter_map(date).collect()
 }
 
 /// The order of the course, and these homeworks in it as `known` has them, in the words of the log of acts.

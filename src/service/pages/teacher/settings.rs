@@ -2,7 +2,7 @@
 
 mod rules;
 
-use super::super::datetime::TimeElement;
+use super::super::datetime::{self, TimeElement};
 use super::super::frame::PageFrame;
 use super::super::shown;
 use super::Tab;
@@ -192,10 +192,13 @@ pub(in crate::service::pages) async fn save(
     let before = state.store.assignment(&state.assignment.id).await?;
     let zone = frame.course.zone();
     let was = described(&before, zone);
+    let shown = [before.opens_at, before.closes_at, before.late.until];
     match rules.read(&frame, before) {
         Ok(settings) => {
             state.store.set_assignment(&settings).await?;
-            let answer = Redirect::to(&format!("{}/settings?done=saved", frame.teacher())).into_response();
+            let dates: Vec<_> = rules.dates().into_iter().zip(shown).collect();
+            let page = datetime::with_unclear(&format!("{}/settings?done=saved", frame.teacher()), &dates, zone);
+            let answer = Redirect::to(&page).into_response();
             Ok(Detail::of(changes(&was, &described(&settings, zone))).on(answer))
         }
         Err(wrong) => {

@@ -63,6 +63,11 @@ impl RulesForm {
         }
     }
 
+    /// The fields of dates: when handing in begins, when it is due, and when late hand-ins end.
+    pub(super) fn dates(&self) -> [&str; 3] {
+        [&self.opens, &self.closes, &self.late.late_until]
+    }
+
     /// The settings that the form asks for.
     pub(super) fn read(&self, frame: &PageFrame, before: AssignmentSettings) -> Result<AssignmentSettings, String> {
         let date = |field: &str, shown: Option<Millis>| {
