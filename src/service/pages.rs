@@ -40,6 +40,7 @@ use super::language::COOKIE;
 use crate::fault::Fault;
 use axum::Router;
 use axum::extract::Request;
+use axum::handler::Handler;
 use axum::http::{HeaderValue, header};
 use axum::middleware::{Next, from_fn, from_fn_with_state};
 use axum::response::{Html, IntoResponse, Response};
@@ -71,11 +72,18 @@ pub fn router(service: &Service) -> Router<Service> {
     if !service.is_beside() {
         routes = routes.merge(teacher::of_service());
     }
+    let embeddable = from_fn_with_state(service.clone(), lti::embeddable);
     routes
         .layer(from_fn(keep_language))
-        .layer(from_fn_with_state(service.clone(), lti::embeddable))
+        .layer(embeddable.clone())
         .layer(from_fn_with_state(service.clone(), visit))
+        .fallback(nothing_here.layer(embeddable))
         .merge(Router::new().route("/assets/{name}", get(assets::serve)).layer(CompressionLayer::new()))
+}
+
+/// An address at which there is nothing, which may be read in a frame as other pages are.
+async fn nothing_here() -> Problem {
+    Problem::not_found()
 }
 
 /// The pages that are of no homework, or of the one that their address leads to.

@@ -15,7 +15,7 @@ use axum::body::Body;
 use axum::http::{Request, StatusCode, header};
 use ggrade::service::Config;
 use ggrade::service::clock::Clock;
-use launch::{answer, begin, bench, cookie, encoded, hand_in, launch, registered, with_cookie};
+use launch::{answer, begin, bench, cookie, encoded, hand_in, launch, registered, visit, with_cookie};
 use platform::{CLIENT, DEPLOYMENT, Platform};
 use serde_json::json;
 
@@ -220,6 +220,15 @@ async fn inside_a_platforms_page_cookies_are_its_own_and_nobody_else_shows_pages
     let policy = bench.send(framed).await.header("content-security-policy").to_owned();
     assert!(policy.contains(&format!("frame-ancestors 'self' {}", platform.issuer)), "{policy}");
     assert!(bench.get("/").await.header("content-security-policy").contains("frame-ancestors 'none'"));
+    // So are the pages that say that there is nothing, at whatever address.
+    for address in ["/r/none", "/a/none", "/nothing/here"] {
+        let lost = visit(&bench, address, "iframe", "").await;
+        let policy = lost.header("content-security-policy");
+        assert_eq!(lost.status, StatusCode::NOT_FOUND, "{address}");
+        assert!(policy.contains(&format!("frame-ancestors 'self' {}", platform.issuer)), "{address}: {policy}");
+        let policy = bench.get(address).await.header("content-security-policy").to_owned();
+        assert!(policy.contains("frame-ancestors 'none'"), "{address}: {policy}");
+    }
     bench.finish().await;
 }
 
