@@ -21,6 +21,8 @@ pub struct Mistake {
     pub fit: Option<FreeParameter>,
     /// Whether the handed-out file itself has it, so that its own line may be named.
     pub handed_out: bool,
+    /// Whether the folder says nothing of it, so that the words are those of any homework.
+    pub is_general: bool,
     /// Whether it is what a negative base of a power means, also where a driver hides that the result is undefined.
     pub undefined_power: bool,
     /// Whether something is left out where a right value is used, so that the use is what is named.

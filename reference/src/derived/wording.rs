@@ -95,6 +95,7 @@ fn blank(assignment: &Assignment, said: &OperatorText, name: &str, quantity: &De
         variants: Vec::new(),
         fit: None,
         handed_out: false,
+        is_general: false,
         undefined_power: false,
         at_use: false,
         needs: Vec::new(),

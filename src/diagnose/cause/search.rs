@@ -162,19 +162,19 @@ fn nearly_right(evidence: &Evidence<'_>) -> Cause {
 fn moved(evidence: &Evidence<'_>, samples: &[[f64; 3]], is_there: &dyn Fn(usize, DVec4) -> bool) -> Option<Cause> {
     let assignment = evidence.assignment;
     let mut of_position = (0..assignment.rubric.len()).filter(|at| assignment.judges_position(&assignment.rubric[*at]));
-    // A line that judges all of the place has its own words.
-    if of_position.clone().any(|line| !assignment.has_feature(line)) {
-        return None;
-    }
+    // A line that judges all of the place has no feature.
+    let has_features = of_position.clone().all(|line| assignment.has_feature(line));
     let judges_position = of_position.next().is_some();
-    if let Some(found) = explain_moved(assignment, evidence.probes, samples, is_there, COLOUR_TOLERANCE) {
+    if has_features && let Some(found) = explain_moved(assignment, evidence.probes, samples, is_there, COLOUR_TOLERANCE)
+    {
         // Where a line judges where something stands, nothing of the colour is wrong.
         let of_colour = assignment.rubric.iter().filter(|line| judges_position && !assignment.judges_position(line));
         let spared = of_colour.map(|line| line.id.clone()).collect();
         return Some(Cause::Known { constants: Vec::new(), found: vec![found], spared });
     }
     let moves = |id: &str| assignment.mistake(POSITION_CHANGED).is_some_and(|mistake| mistake.keeps(id) < 1.0);
-    if judges_position || !assignment.is_told_by_features() {
+    let is_general = assignment.mistake(POSITION_CHANGED).is_some_and(|mistake| mistake.is_general);
+    if judges_position && (has_features || !is_general) || !assignment.is_told_by_features() {
         return None;
     }
     let (_, repairs) = inside::account(evidence, &mut || true);

@@ -18,6 +18,8 @@ pub(super) struct KeptLines {
     is_finite_nowhere: OnceCell<bool>,
     /// The lines whose feature shows beside others everywhere, by id.
     never_alone: OnceCell<Vec<String>>,
+    /// Whether every colour is right, and only a place is not.
+    is_right: OnceCell<bool>,
     /// Where the features of the lines show.
     footprints: OnceCell<Footprints>,
     /// How far the lines are right where they show.
@@ -29,7 +31,8 @@ impl KeptLines {
     pub fn of(&self, evidence: &Evidence<'_>, cause: &Cause, line: &RubricLine) -> Text {
         // The numbers that a program lists are known one by one.
         let is_listed = evidence.assignment.files.iter().any(|file| file.program.is_some());
-        if is_listed || matches!(cause, Cause::Right) || evidence.assignment.judges_position(line) {
+        let is_right = matches!(cause, Cause::Right) || *self.is_right.get_or_init(|| all_colours_are_right(evidence));
+        if is_listed || is_right || evidence.assignment.judges_position(line) {
             return agreement(evidence, line);
         }
         if *self.is_finite_nowhere.get_or_init(|| addends::is_finite_nowhere(evidence)) {
@@ -87,6 +90,11 @@ impl KeptLines {
         let terms = self.terms.get_or_init(|| terms_alone(evidence));
         terms.iter().find(|term| term.line == line.id)
     }
+}
+
+fn all_colours_are_right(evidence: &Evidence<'_>) -> bool {
+    let mut colours = evidence.probes.iter().zip(evidence.samples);
+    colours.all(|(probe, sample)| is_colour(probe.colour, DVec3::from(sample.colour_f64())))
 }
 
 /// What is said of a line that costs nothing where no colour is a number.

@@ -49,7 +49,9 @@ pub(super) fn all(
     }
     let general = general(rubric, solution)?.into_iter().filter(|entry| !ids.contains(&entry.id));
     let entries: Vec<_> = entries.into_iter().chain(general).collect();
-    entries.into_iter().map(|entry| mistake(entry, solution, &lines, constants, variants, place_at)).collect()
+    let checked = entries.into_iter().map(|entry| mistake(entry, solution, &lines, constants, variants, place_at));
+    let is_general = |mistake: Mistake| Mistake { is_general: !ids.contains(&mistake.id), ..mistake };
+    checked.map(|checked| checked.map(is_general)).collect()
 }
 
 /// What goes wrong in any homework.
@@ -156,6 +158,7 @@ fn mistake(
         needs: entry.needs,
         lacks: entry.lacks,
         handed_out: entry.handed_out,
+        is_general: false,
         at_use: entry.at_use,
         undefined_power: entry.undefined_power,
         instead: entry
