@@ -11,6 +11,7 @@ mod ingredients;
 mod inlined;
 mod order;
 mod size;
+mod spaces;
 mod statements;
 mod undone;
 

@@ -196,6 +196,7 @@ impl Ingredients {
             found.extend(names.map(|name| plain(Operator::OtherNumber, name.expression.clone())));
             return found;
         }
+        found.extend(self.to_another_space(own, kind, theirs));
         let Some(count) = floats(Some(kind)) else { return found };
         if is_literal(own) || matches!(own.kind, ExpressionKind::Assign(..)) {
             return found;
