@@ -98,6 +98,10 @@ fn of_colour(assignment: &Assignment, terms: &[TermJudgement], repaired: &Repair
             return lost.into_iter().map(|line| line.id.clone()).collect();
         }
     }
+    // What a right answer has in the text of a line's feature is of that line.
+    if let Some(own) = assignment.only_line_with(&repaired.texts[1]).filter(is_colour) {
+        return vec![own.id.clone()];
+    }
     // What a fixed stage reads has its name, whatever stands for it in a right answer.
     let is_read = |name: &&str| {
         assignment.fixed.iter().any(|fixed| fixed.stage == Stage::Fragment)

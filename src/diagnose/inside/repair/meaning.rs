@@ -50,6 +50,13 @@ impl Search<'_, '_> {
         let definition = definition.or_else(|| self.decides_what_is_drawn(attempt, &seen).then(|| DISCARD.to_owned()));
         let terms = self.changed_terms(&attempt.program, &marked).unwrap_or_default();
         let definition = definition.filter(|name| self.goes_into_all(name, &terms));
+        // What stands in the text of one line's feature is not called after another line.
+        let is_of_another = |name: &String| {
+            let own = self.assignment.only_line_with(&repair.texts[1]);
+            let mut about = self.assignment.lines_about(name).peekable();
+            own.is_some_and(|own| about.peek().is_some() && about.all(|line| line.id != own.id))
+        };
+        let definition = definition.filter(|name| !is_of_another(name));
         let mistake = self.assignment.repaired(operator, definition.as_deref(), repair.is_bound_by_zero);
         // What another value stands for is what it is used for.
         let is_used = definition.is_none() || is_of_use(repair.mistake);
