@@ -2,6 +2,7 @@
 
 use crate::source::{self, Source};
 use reference::interpreter::{Stage, outline};
+use std::collections::HashSet;
 
 /// What is written on a line.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -49,9 +50,29 @@ pub(in crate::diagnose) fn is_handed_out(source: &Source, number: u32, starter: 
         let other = squeezed(other);
         other == line || other.split("//").next() == Some(&code)
     };
-    let constant = code.starts_with("const").then(|| values(source.code_line(number)));
-    let is_same_constant = |other: &str| constant.as_ref().is_some_and(|own| values(other) == *own);
-    !code.is_empty() && starter.lines().any(|other| is_it(other) || is_same_constant(other))
+    let handed_out = || starter.lines().flat_map(constants).collect::<HashSet<_>>();
+    let own = constants(source.code_line(number));
+    let are_the_same = || own.is_subset(&handed_out());
+    !code.is_empty() && (starter.lines().any(is_it) || !own.is_empty() && are_the_same())
+}
+
+/// The constants that a line of declarations defines, each with its value; several may stand on one line.
+fn constants(line: &str) -> HashSet<Vec<String>> {
+    let words = values(line);
+    let [first, _, rest @ ..] = &words[..] else { return HashSet::new() };
+    if first != "const" {
+        return HashSet::new();
+    }
+    let mut depth = 0_usize;
+    let is_between = |word: &String| {
+        match word.as_str() {
+            "(" => depth += 1,
+            ")" => depth = depth.saturating_sub(1),
+            _ => {}
+        }
+        depth == 0 && matches!(word.as_str(), "," | ";")
+    };
+    rest.split(is_between).filter(|own| !own.is_empty()).map(<[String]>::to_vec).collect()
 }
 
 /// The words and signs of a line, each number by its value.
