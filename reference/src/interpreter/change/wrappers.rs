@@ -80,7 +80,10 @@ impl WrappedValue<'_> {
         if self.count > 1 && !place.parent.is_some_and(calls::is_square) {
             add(Operator::Normalized, self.call("normalize", vec![own()]));
         }
-        add(Operator::Complement, self.between(self.number(1.0), Binary::Subtract, self.it()));
+        // In the place of a number there is another number.
+        if !is_literal(self.own) {
+            add(Operator::Complement, self.between(self.number(1.0), Binary::Subtract, self.it()));
+        }
         // Of a power that is another exponent.
         let is_power = |one: &Expression| matches!(&one.kind, ExpressionKind::Call(name, _) if **name == *"pow");
         if !is_power(self.own) && !place.parent.is_some_and(is_power) {
