@@ -40,7 +40,7 @@ const SAMPLES: [(&str, usize); 31] = [
     ("per-pixel", 11),
     ("phong", 191),
     ("phong-shading", 166),
-    ("rings", 16),
+    ("rings", 17),
     ("schlick", 191),
     ("several-lights", 189),
     ("shapes", 16),

@@ -28,6 +28,7 @@ const HARD_CODED: &str = "hard-coded";
 /// Nothing that is known explains a wrong answer.
 pub const UNEXPLAINED: &str = "unexplained";
 pub(super) const NEARLY_RIGHT: &str = "nearly-right";
+pub(super) const FEW_PIXELS: &str = "few-pixels";
 /// Every fragment is thrown away.
 pub(super) const NOTHING_DRAWN: &str = "nothing-drawn";
 pub(super) const PART_MISSING: &str = "part-missing";
@@ -57,6 +58,8 @@ pub(super) enum Cause {
     NothingDrawn,
     /// Nothing known explains it, but it is never off by much; the ids of lines that have nothing to do with it.
     NearlyRight(Vec<String>),
+    /// It is right at every probe, and in the pictures but for a few pixels.
+    FewPixels,
     /// Nothing known explains it, and these changes of the text make it right; the ids of the lines that each one costs points.
     Repaired(Vec<(Vec<String>, Repaired)>),
     /// Nothing known explains it.
@@ -101,7 +104,7 @@ impl Cause {
         match self {
             _ if !self.is_refuted(evidence) => self,
             _ if let Some(listed) = Listed::of(evidence) => Self::unexplained(listed.terms(evidence), Vec::new()),
-            Self::Known { .. } | Self::NearlyRight(_) if addends::is_computed(evidence) => {
+            Self::Known { .. } | Self::NearlyRight(_) | Self::FewPixels if addends::is_computed(evidence) => {
                 let samples: Vec<[f64; 3]> = evidence.samples.iter().map(Sample::colour_f64).collect();
                 let Evidence { assignment, probes, .. } = *evidence;
                 let terms = judge_terms(assignment, probes, &samples, COLOUR_TOLERANCE);
@@ -125,7 +128,7 @@ impl Cause {
                 let probes = assignment.reprobe(fresh.probes);
                 Fresh { probes: &probes, ..fresh }.refutes(&assignment, found, COLOUR_TOLERANCE)
             }),
-            Self::Right => fresh.refutes(assignment, &[], COLOUR_TOLERANCE),
+            Self::Right | Self::FewPixels => fresh.refutes(assignment, &[], COLOUR_TOLERANCE),
             Self::NearlyRight(_) => fresh.refutes(assignment, &[], NEARLY),
             Self::HardCoded | Self::NothingDrawn | Self::Parts(_) | Self::Repaired(_) | Self::Unexplained { .. } => {
                 false
@@ -236,18 +239,12 @@ impl Cause {
     pub(super) fn explanation(&self) -> Option<Vec<Hypothesis>> {
         match self {
             Self::Right => Some(Vec::new()),
-            Self::Known { found, .. } => Some(
-                found
-                    .iter()
-                    .map(|found| Hypothesis { id: found.id.clone(), form: found.form, parameter: found.parameter })
-                    .collect(),
-            ),
-            Self::HardCoded
-            | Self::NothingDrawn
-            | Self::Parts(_)
-            | Self::NearlyRight(_)
-            | Self::Repaired(_)
-            | Self::Unexplained { .. } => None,
+            Self::Known { found, .. } => {
+                let of =
+                    |own: &FoundMistake| Hypothesis { id: own.id.clone(), form: own.form, parameter: own.parameter };
+                Some(found.iter().map(of).collect())
+            }
+            _ => None,
         }
     }
 
@@ -281,6 +278,7 @@ impl Cause {
             Self::HardCoded => vec![HARD_CODED.into()],
             Self::NothingDrawn => vec![NOTHING_DRAWN.into()],
             Self::NearlyRight(_) => vec![NEARLY_RIGHT.into()],
+            Self::FewPixels => vec![FEW_PIXELS.into()],
             Self::Repaired(_) => {
                 let mut ids: Vec<String> = self.repairs().map(|repaired| repaired.mistake.id.clone()).collect();
                 ids.dedup();

@@ -5,7 +5,7 @@
 mod blanks;
 mod kept;
 
-use super::cause::{NEARLY_RIGHT, PART_ABSENT, PART_MISSING, PART_SCALED, UNEXPLAINED};
+use super::cause::{FEW_PIXELS, NEARLY_RIGHT, PART_ABSENT, PART_MISSING, PART_SCALED, UNEXPLAINED};
 use super::constants::ChangedConstant;
 use super::inside::{self, Finding};
 use super::listed::Listed;
@@ -110,7 +110,7 @@ fn with_file(text: &Text, line: u32, file: &str) -> Text {
 
 /// Whether a mistake is only known by what is seen, so that its texts say nothing of the place.
 fn is_general(id: &str) -> bool {
-    [UNEXPLAINED, PART_MISSING, PART_ABSENT, PART_SCALED, NEARLY_RIGHT].contains(&id)
+    [UNEXPLAINED, PART_MISSING, PART_ABSENT, PART_SCALED, NEARLY_RIGHT, FEW_PIXELS].contains(&id)
 }
 
 /// What the messages may say of the student's text, because it was looked up there.
@@ -170,7 +170,7 @@ impl Facts {
             // Everything stands where it should not, and nothing else is wrong.
             Cause::Known { constants, found, .. } if constants.is_empty() && found.is_empty() => inside::find(evidence),
             Cause::Parts(parts) => inside::find_beside(evidence, &parts.found),
-            Cause::Right | Cause::NearlyRight(_) => inside::find(evidence),
+            Cause::Right | Cause::NearlyRight(_) | Cause::FewPixels => inside::find(evidence),
             Cause::Known { .. } | Cause::HardCoded | Cause::NothingDrawn | Cause::Repaired(_) => Vec::new(),
             Cause::Unexplained { findings, .. } => findings.clone(),
         };

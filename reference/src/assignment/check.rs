@@ -37,8 +37,8 @@ use variants::Variants;
 const OF_FEATURES: [&str; 2] = [PART_MISSING, "part-scaled"];
 const PART_MISSING: &str = "part-missing";
 
-/// What is said of a fragment stage that throws everything away.
-const OF_FRAGMENTS: &str = "nothing-drawn";
+/// What is said of a fragment stage: that it throws everything away, or is wrong in a few pixels.
+const OF_FRAGMENTS: [&str; 2] = ["nothing-drawn", "few-pixels"];
 
 type CheckResult<T> = Result<T, AssignmentError>;
 
@@ -87,7 +87,7 @@ pub(super) fn assignment(
         mistakes.retain(|mistake| !OF_FEATURES.contains(&mistake.id.as_str()) || is_of_terms(mistake));
     }
     if files.iter().all(|file| file.stage != Stage::Fragment) {
-        mistakes.retain(|mistake| mistake.id != OF_FRAGMENTS);
+        mistakes.retain(|mistake| !OF_FRAGMENTS.contains(&mistake.id.as_str()));
     }
     let gradual = gradual(&m, &mistakes, place_at)?;
     let time = m.time.as_ref().map_or(Ok(1), |entry| time(entry, place_at))?;

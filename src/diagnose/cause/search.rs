@@ -1,7 +1,7 @@
 //! How a cause is found: known mistakes first, and then what nobody wrote down.
 
 use super::unexplained::{alone, unexplained};
-use super::{Cause, HARD_CODED, NEARLY, spared, with_constants, worth};
+use super::{Cause, FEW_PIXELS, HARD_CODED, NEARLY, spared, with_constants, worth};
 use crate::compare::{COLOUR_TOLERANCE, POSITION_TOLERANCE, position_difference};
 use crate::diagnose::constants::{self, ChangedConstant};
 use crate::diagnose::inside::{self, RepairAim, Repaired};
@@ -23,6 +23,17 @@ const FEW: usize = MOST_MISTAKES - 1;
 /// Whether a picture is off by no more than what is nearly right.
 fn is_hardly_off(frame: &FrameResult) -> bool {
     frame.max_difference <= NEARLY * 255.0
+}
+
+/// Whether hardly any pixel of a picture is another one.
+fn are_few_pixels_off(evidence: &Evidence<'_>) -> bool {
+    /// Of the window's pixels. A border of a pixel around a third of it is less.
+    const FEW: f64 = 0.01;
+    let Evidence { assignment, frames, .. } = *evidence;
+    let scene = &assignment.scene;
+    let most = FEW * f64::from(scene.width) * f64::from(scene.height);
+    let is_few = |frame: &FrameResult| frame.coverage_mismatches == 0 && f64::from(frame.mismatched_pixels) <= most;
+    assignment.mistake(FEW_PIXELS).is_some() && frames.iter().all(is_few)
 }
 
 /// Finds it. `shape`: whether everything stands where it should.
@@ -61,6 +72,7 @@ pub(in crate::diagnose) fn cause(evidence: &Evidence<'_>, shape: bool) -> Cause 
             // What the last digits decide is not judged.
             Reads::Attributes if hard_coded::are_at_steps(assignment, evidence.frames) => Cause::Right,
             Reads::Attributes => Cause::HardCoded,
+            Reads::Outputs if are_few_pixels_off(evidence) => Cause::FewPixels,
             // Not all that a fragment stage reads is probed.
             Reads::Varyings | Reads::Outputs => Cause::unexplained(Vec::new(), Vec::new()),
         };
