@@ -1,13 +1,19 @@
 //! What a class's grades became since an earlier grading of it: who gains, who loses, and why.
 
 use super::class::{Class, ClassEntry, Outcome, Student};
+use super::folder::OutputFolder;
 use super::journal::{JournalHeader, JournalRecord};
 use super::standing::Standing;
+use crate::fault::Fault;
+use crate::language::Text;
 use crate::report::{Report, RubricLine};
 use serde::Serialize;
 use std::collections::{HashMap, HashSet};
 
-/// Name and version of the format of `changes.json`.
+/// Name of the file.
+pub const NAME: &str = "changes.json";
+
+/// Name and version of the format of [`NAME`].
 pub const SCHEMA: &str = "ggrade/changes/v1";
 
 /// Points that differ by less are the same: sums of fractions of points are rounded.
@@ -135,6 +141,15 @@ impl Changes {
             None if differs => self.unclear.push(change),
             _ => self.unchanged += 1,
         }
+    }
+
+    /// Writes [`NAME`]. Gives its name, and what it is.
+    pub fn write(&self, folder: &OutputFolder) -> Result<(String, Text), Fault> {
+        // Strings, numbers and lists under constant keys: there is nothing that could fail.
+        let mut json = serde_json::to_vec_pretty(self).unwrap_or_default();
+        json.push(b'\n');
+        folder.write(NAME, &json)?;
+        Ok((NAME.into(), Text::new("What changed, for programs", "前回からの変化 (プログラム用)")))
     }
 
     /// Whether everything is as it was.

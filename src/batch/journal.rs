@@ -9,6 +9,7 @@ pub use found::{FoundJournal, UnreadableJournal, read};
 
 use super::class::{Outcome, Student};
 use super::folder::{OutputFolder, unwritable};
+use super::roll::GradingCandidate;
 use super::shard::Shard;
 use crate::diagnose::Hints;
 use crate::fault::Fault;
@@ -82,6 +83,14 @@ pub struct RecordOf<'a> {
     pub sha256: Option<&'a str>,
     /// What became of it.
     pub outcome: &'a Outcome,
+}
+
+impl<'a> RecordOf<'a> {
+    /// What is written down of a candidate.
+    pub fn new(candidate: &'a GradingCandidate, outcome: &'a Outcome) -> Self {
+        let GradingCandidate { hand_in, sha256, .. } = candidate;
+        Self { student: &hand_in.student, path: hand_in.path(), sha256: sha256.as_deref(), outcome }
+    }
 }
 
 impl JournalRecord {

@@ -1,16 +1,22 @@
 //! Writes a graded class in the formats that are wanted.
 
-use super::changes::Changes;
 use super::class::Class;
 use super::folder::OutputFolder;
 use super::formats::{ClassFormat, KEY, exchange, feedback, gradebooks, grades, page, worksheet};
-use super::summary::WrittenFiles;
 use crate::fault::Fault;
 use crate::language::Text;
 use clap::ValueEnum;
 
-/// Name of the file that tells what changed since an earlier grading.
-pub const CHANGES: &str = "changes.json";
+/// What was written, and what there is to say about it.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct WrittenFiles {
+    /// The folder.
+    pub folder: String,
+    /// Each file in it, `*` for what each student has one of, with what it is.
+    pub files: Vec<(String, Text)>,
+    /// What a teacher should know.
+    pub notes: Vec<Text>,
+}
 
 /// What a run can write.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -103,7 +109,6 @@ pub fn write(
     class: &Class,
     formats: &[ClassFormat],
     sheet: Option<&[u8]>,
-    changes: Option<&Changes>,
     folder: &OutputFolder,
 ) -> (WrittenFiles, Option<Fault>) {
     let mut written = WrittenFiles { folder: folder.at("").display().to_string(), ..WrittenFiles::default() };
@@ -114,13 +119,6 @@ pub fn write(
                 written.notes.extend(notes);
                 written.files.extend(format.files().iter().map(|file| (file.replace(KEY, "*"), format.description())));
             }
-            Err(fault) => first = first.or(Some(fault)),
-        }
-    }
-    if let Some(changes) = changes {
-        let what = Text::new("What changed, for programs", "前回からの変化 (プログラム用)");
-        match folder.write(CHANGES, &json(changes)) {
-            Ok(_) => written.files.push((CHANGES.into(), what)),
             Err(fault) => first = first.or(Some(fault)),
         }
     }
@@ -169,13 +167,6 @@ fn one(class: &Class, format: ClassFormat, sheet: Option<&[u8]>, folder: &Output
             Ok(Vec::new())
         }
     }
-}
-
-fn json(changes: &Changes) -> Vec<u8> {
-    // Strings, numbers and lists under constant keys: there is nothing that could fail.
-    let mut json = serde_json::to_vec_pretty(changes).unwrap_or_default();
-    json.push(b'\n');
-    json
 }
 
 #[cfg(test)]

@@ -164,7 +164,7 @@ fn clear(folder: &OutputFolder, records: &[JournalRecord]) -> Result<(), Fault> 
     for file in formats.filter(|file| !file.contains(KEY)) {
         folder.remove(file)?;
     }
-    folder.remove(super::output::CHANGES)?;
+    folder.remove(super::changes::NAME)?;
     // Last: what is there without it would be nobody's.
     folder.remove(journal::NAME)
 }

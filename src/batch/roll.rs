@@ -3,7 +3,6 @@
 use super::class::{AlikeStudent, ClassEntry, Outcome};
 use super::content::ContentDigest;
 use super::intake::{self, StudentWork};
-use super::journal::RecordOf;
 use crate::hand_in::HandIn;
 use crate::language::Text;
 use crate::likeness::{Comparison, Likeness, Pair};
@@ -20,7 +19,7 @@ pub struct GradingCandidate {
     /// The hand-in's digest in hexadecimal; none where there is nothing to grade.
     pub sha256: Option<String>,
     /// The files that can be read as text.
-    pub(super) sources: Vec<Source>,
+    pub sources: Vec<Source>,
     content: Option<ContentDigest>,
     alike: Vec<AlikeStudent>,
 }
@@ -110,11 +109,6 @@ impl GradingCandidate {
         }
     }
 
-    /// What is written down of it.
-    pub fn record<'a>(&'a self, outcome: &'a Outcome) -> RecordOf<'a> {
-        RecordOf { student: &self.hand_in.student, path: self.hand_in.path(), sha256: self.sha256.as_deref(), outcome }
-    }
-
     /// The entry of this outcome.
     pub fn entry(&self, outcome: Outcome, portrait: Option<Vec<u8>>, page: Option<PathBuf>) -> ClassEntry {
         let places = match &self.hand_in.content {
@@ -139,7 +133,7 @@ impl GradingCandidate {
 }
 
 /// `indices` with those that need one grading together, in order of the first of each.
-pub(super) fn groups(candidates: &[GradingCandidate], indices: &[usize]) -> Vec<Vec<usize>> {
+pub fn groups(candidates: &[GradingCandidate], indices: &[usize]) -> Vec<Vec<usize>> {
     let mut groups: Vec<Vec<usize>> = Vec::new();
     let mut places: HashMap<&ContentDigest, usize> = HashMap::new();
     for &index in indices {

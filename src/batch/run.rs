@@ -2,7 +2,7 @@
 
 use super::class::{ClassEntry, Outcome};
 use super::folder::{OutputFolder, page_file, portrait_file};
-use super::journal::Journal;
+use super::journal::{Journal, RecordOf};
 use super::page::Pages;
 use super::portrait::Portraits;
 use super::roll::{GradingCandidate, groups};
@@ -119,7 +119,7 @@ impl ClassRun<'_> {
         }
         let page = page.as_ref().map(|page| self.folder.write(&page_file(key), page.as_bytes())).transpose()?;
         // Last: a result that is written down has its files.
-        self.journal.append(&member.record(outcome))?;
+        self.journal.append(&RecordOf::new(member, outcome))?;
         let entry = member.entry(outcome.clone(), portrait.clone(), page);
         (self.finished)(&entry);
         Ok(entry)

@@ -6,6 +6,7 @@ mod tests;
 
 use super::changes::Changes;
 use super::class::{Class, Outcome};
+use super::output::WrittenFiles;
 use super::standing::Standing;
 use super::statistics::{self, Averages, BINS};
 use crate::language::{Language, Text};
@@ -29,17 +30,6 @@ const GOOD: Style = AnsiColor::Green.on_default();
 const PARTIAL: Style = AnsiColor::Yellow.on_default();
 const BAD: Style = AnsiColor::Red.on_default();
 const ODD: Style = AnsiColor::Magenta.on_default();
-
-/// What was written, and what there is to say about it.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct WrittenFiles {
-    /// The folder.
-    pub folder: String,
-    /// Each file in it, `*` for what each student has one of, with what it is.
-    pub files: Vec<(String, Text)>,
-    /// What a teacher should know.
-    pub notes: Vec<Text>,
-}
 
 /// The summary, with a final newline. It is coloured; nothing is said by colour alone.
 pub fn render(class: &Class, changes: Option<&Changes>, written: &WrittenFiles, width: usize) -> String {

@@ -1,8 +1,7 @@
 //! Tests of what changed.
 
 use super::*;
-use crate::fault::Fault;
-use crate::language::{Language, Text};
+use crate::language::Language;
 use crate::report::samples;
 
 fn header(version: &str) -> JournalHeader {

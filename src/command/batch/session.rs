@@ -211,7 +211,7 @@ impl BatchSession<'_> {
 
     fn write_journal(&self, candidates: &[GradingCandidate], entries: &[ClassEntry]) -> Result<(), Fault> {
         let records: Vec<_> =
-            candidates.iter().zip(entries).map(|(candidate, entry)| candidate.record(&entry.outcome)).collect();
+            candidates.iter().zip(entries).map(|(candidate, entry)| RecordOf::new(candidate, &entry.outcome)).collect();
         journal::write(self.folder, self.header, &records)
     }
 
@@ -225,7 +225,12 @@ impl BatchSession<'_> {
     ) -> Result<ExitStatus, NotBegun> {
         self.write_journal(candidates, &class.entries)?;
         let changes = before.map(|found| Changes::between((found.header, found.records), self.header, class));
-        let (mut written, fault) = output::write(class, wanted.formats, wanted.sheet, changes.as_ref(), self.folder);
+        let (mut written, fault) = output::write(class, wanted.formats, wanted.sheet, self.folder);
+        let (changed, fault) = match changes.as_ref().map(|changes| changes.write(self.folder)) {
+            Some(Ok(file)) => (Some(file), fault),
+            Some(Err(other)) => (None, fault.or(Some(other))),
+            None => (None, fault),
+        };
         let likeness = wanted
             .formats
             .contains(&ClassFormat::Html)
@@ -235,7 +240,7 @@ impl BatchSession<'_> {
             Some(Err(other)) => (None, fault.or(Some(other))),
             None => (None, fault),
         };
-        written.files.extend(likeness);
+        written.files.extend(changed.into_iter().chain(likeness));
         written.notes.extend(wanted.hint.clone());
         let what = Text::new(
             "Every result, for --resume, --compare and programs",
@@ -263,5 +268,5 @@ impl BatchSession<'_> {
 /// What there is already, as it is written down.
 fn kept<'a>(candidates: &'a [GradingCandidate], entries: &'a [Option<ClassEntry>]) -> Vec<RecordOf<'a>> {
     let pairs = candidates.iter().zip(entries);
-    pairs.filter_map(|(candidate, entry)| Some(candidate.record(&entry.as_ref()?.outcome))).collect()
+    pairs.filter_map(|(candidate, entry)| Some(RecordOf::new(candidate, &entry.as_ref()?.outcome))).collect()
 }

@@ -4,9 +4,8 @@ use super::Download;
 use crate::batch::class::{Class, ClassEntry};
 use crate::batch::folder::{NotOpened, OutputFolder};
 use crate::batch::formats::{ClassFormat, KEY};
-use crate::batch::output;
+use crate::batch::output::{self, WrittenFiles};
 use crate::batch::page::Pages;
-use crate::batch::summary::WrittenFiles;
 use crate::fault::Fault;
 use crate::language::{Language, Text};
 use crate::report::Report;
@@ -49,7 +48,7 @@ pub(super) fn written(
         Err(NotOpened::Fault(fault)) => return Err(fault),
         Err(NotOpened::InUse) => return Err(Fault::new(Text::verbatim("a new folder is in use"))),
     };
-    let (WrittenFiles { notes, .. }, fault) = output::write(class, &[format], sheet, None, &folder);
+    let (WrittenFiles { notes, .. }, fault) = output::write(class, &[format], sheet, &folder);
     if let Some(fault) = fault {
         return Err(fault);
     }
