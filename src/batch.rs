@@ -1,6 +1,6 @@
 //! Many files → many reports, in and out of the formats that courses use.
 //!
-//! [`intake`] finds what was handed in, [`roll`] reads it, [`run`] grades it on all cores and writes each result into a
+//! [`intake`](crate::intake) finds what was handed in, [`roll`] reads it, [`run`] grades it on all cores and writes each result into a
 //! [`journal`] as it comes; a [`class::Class`] is what came of it all, and [`formats`] are its views. [`content`] knows which
 //! submissions are the same, [`likeness`] shows which answers are alike, [`anonymous`] takes the names away, [`changes`] holds a class against an earlier grading of it,
 //! [`shard`] divides it among machines.
@@ -11,7 +11,6 @@ pub mod class;
 pub mod content;
 pub mod folder;
 pub mod formats;
-pub mod intake;
 pub mod journal;
 pub mod json_lines;
 pub mod likeness;

@@ -1,6 +1,6 @@
 //! Which assignment is meant: one that is built in, by its name, or one in a folder.
 
-use crate::batch::intake::{self, HandInPart, IntakeOptions};
+use crate::intake::{self, HandInPart, IntakeOptions};
 use crate::language::Text;
 use crate::sandbox::MOST_ASSIGNMENTS;
 use crate::slots;

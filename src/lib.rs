@@ -6,6 +6,7 @@
 //! uploads in a browser the [`service`]; [`command`] is what a person calls.
 
 pub mod hand_in;
+pub mod intake;
 pub mod slots;
 
 pub mod compare;

@@ -4,11 +4,10 @@
 //! pseudonyms again, another folder gives others, and without the key nobody can try names until one fits. What a student
 //! wrote inside the file stays as it is: a name in a comment is still there.
 
-use super::class::{FileLocation, Refused, Student};
 use super::folder::OutputFolder;
 use super::formats::plain::cell;
-use super::intake::{HandInContent, Intake, StudentWork};
 use crate::fault::Fault;
+use crate::intake::{FileLocation, HandInContent, Intake, Refused, Student, StudentWork};
 use crate::language::Text;
 use crate::slots::Slot;
 use hmac::{Hmac, KeyInit, Mac};

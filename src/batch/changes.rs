@@ -1,10 +1,11 @@
 //! What a class's grades became since an earlier grading of it: who gains, who loses, and why.
 
-use super::class::{Class, ClassEntry, Outcome, Student};
+use super::class::{Class, ClassEntry, Outcome};
 use super::folder::OutputFolder;
 use super::journal::{JournalHeader, JournalRecord};
 use super::standing::Standing;
 use crate::fault::Fault;
+use crate::intake::Student;
 use crate::language::Text;
 use crate::report::{Report, RubricLine};
 use serde::Serialize;

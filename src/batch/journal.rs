@@ -7,12 +7,13 @@ mod found;
 
 pub use found::{FoundJournal, UnreadableJournal, read};
 
-use super::class::{Outcome, Student};
+use super::class::Outcome;
 use super::folder::{OutputFolder, unwritable};
 use super::roll::GradingCandidate;
 use super::shard::Shard;
 use crate::diagnose::Hints;
 use crate::fault::Fault;
+use crate::intake::Student;
 use crate::language::Language;
 use serde::{Deserialize, Serialize};
 use std::fs::{File, OpenOptions};

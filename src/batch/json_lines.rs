@@ -1,7 +1,8 @@
 //! One JSON object for each finished entry, for programs that follow a run.
 
-use super::class::{AlikeStudent, ClassEntry, Outcome, Student};
+use super::class::{AlikeStudent, ClassEntry, Outcome};
 use super::standing::Standing;
+use crate::intake::Student;
 use crate::language::Language;
 use crate::report::json;
 use serde::Serialize;

@@ -2,8 +2,8 @@
 
 use super::class::{AlikeStudent, ClassEntry, Outcome};
 use super::content::ContentDigest;
-use super::intake::{self, StudentWork};
 use crate::hand_in::HandIn;
+use crate::intake::{self, StudentWork};
 use crate::language::Text;
 use crate::likeness::{Comparison, Likeness, Pair};
 use crate::source::{self, Source};

@@ -6,10 +6,11 @@
 use super::files::{self, NotTaken};
 use super::grade::GradeRequest;
 use super::{ExitStatus, file_fault, grade, writing};
-use crate::batch::class::{Class, ClassEntry, Outcome, Student};
+use crate::batch::class::{Class, ClassEntry, Outcome};
 use crate::batch::formats::{ClassFormat, exchange, github, vpl};
 use crate::batch::portrait::Portraits;
 use crate::fault::Fault;
+use crate::intake::Student;
 use crate::language::Text;
 use crate::report::Verdict;
 use std::io::{ErrorKind, Write};

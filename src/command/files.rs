@@ -1,8 +1,7 @@
 //! The files of one hand-in, as the command line names them.
 
-use crate::batch::class::FileLocation;
-use crate::batch::intake::{self, HandInContent, HandInPart, in_working_folder};
 use crate::hand_in::{HandIn, HandedInFile};
+use crate::intake::{self, FileLocation, HandInContent, HandInPart, in_working_folder};
 use crate::language::Text;
 use reference::Assignment;
 use std::io::Read;

@@ -4,9 +4,9 @@
 //! and what counts is the file that then stands under the name. Folders that tell nothing, on network drives say, are
 //! looked at twice a second.
 
-use crate::batch::intake::HandInPart;
 use crate::command::files;
 use crate::hand_in::HandedInFile;
+use crate::intake::HandInPart;
 use crate::language::Text;
 use notify::event::{AccessKind, AccessMode, EventKind};
 use notify::{RecursiveMode, Watcher};

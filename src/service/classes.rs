@@ -21,7 +21,7 @@ use super::identity::new_id;
 use super::roster::Matcher;
 use super::store::{Batch, BatchEntry, NewSubmission, Priority, StoredKey, Via};
 use super::submit::file_name;
-use crate::batch::intake::{self, HandInContent, Intake, StudentWork};
+use crate::intake::{self, HandInContent, Intake, StudentWork};
 use crate::language::Text;
 use std::path::PathBuf;
 use std::sync::Arc;

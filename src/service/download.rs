@@ -2,8 +2,8 @@
 
 use super::Service;
 use super::errors::Problem;
-use crate::batch::intake::portable;
 use crate::hand_in::HandIn;
+use crate::intake::portable;
 use crate::source::lookalikes::is_bidi;
 use axum::http::{HeaderValue, header};
 use axum::response::{IntoResponse, Response};

@@ -47,7 +47,7 @@ pub async fn import(service: &Service, roster: &[RosterLine]) -> Result<RosterCh
 }
 
 /// What an entry says of whose it is.
-fn who(entry: &BatchEntry) -> (&crate::batch::class::Student, Option<&str>) {
+fn who(entry: &BatchEntry) -> (&crate::intake::Student, Option<&str>) {
     (&entry.student, entry.path.as_deref())
 }
 

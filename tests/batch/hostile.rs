@@ -5,7 +5,7 @@ mod files;
 
 use crate::class::{Place, ggrade};
 use files::{Hostile, Seen};
-use ggrade::batch::intake::IntakeLimits;
+use ggrade::intake::IntakeLimits;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs;

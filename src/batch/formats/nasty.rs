@@ -1,8 +1,9 @@
 //! A class made by hand for the tests of the formats: every outcome, and students who attack whoever reads it.
 
-use crate::batch::class::{Class, ClassEntry, FileLocation, Outcome, Student};
+use crate::batch::class::{Class, ClassEntry, Outcome};
 use crate::diagnostic::{Diagnostic, DiagnosticStage};
 use crate::fault::Fault;
+use crate::intake::{FileLocation, Student};
 use crate::language::{Language, Text};
 use crate::report::{Report, samples};
 use std::path::PathBuf;

@@ -1,7 +1,8 @@
 //! Classes made by hand, for the tests of the formats.
 
-use crate::batch::class::{Class, ClassEntry, FileLocation, Outcome, Participant, Refused, Student};
+use crate::batch::class::{Class, ClassEntry, Outcome};
 use crate::fault::Fault;
+use crate::intake::{FileLocation, Participant, Refused, Student};
 use crate::language::{Language, Text};
 use crate::report::samples;
 

@@ -2,7 +2,7 @@
 
 use super::{BAD, DIM, GOOD, LISTED, ODD, PARTIAL, SummaryWriter, number, paint};
 use crate::batch::changes::{Changes, EarnedPoints, GradeSummary, LineChange, StudentChange};
-use crate::batch::class::Student;
+use crate::intake::Student;
 use crate::language::Language;
 use crate::report::labels::{mistake_title, rubric_label};
 use crate::report::wrap::{columns, pad, plain};

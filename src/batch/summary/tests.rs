@@ -1,8 +1,9 @@
 //! Tests of the summary.
 
 use super::*;
-use crate::batch::class::{ClassEntry, Refused, Student};
+use crate::batch::class::ClassEntry;
 use crate::fault::Fault;
+use crate::intake::{Refused, Student};
 use crate::report::samples;
 
 fn entry(name: &str, outcome: Outcome) -> ClassEntry {

@@ -3,11 +3,11 @@
 use crate::batch::anonymous::{self, Pseudonyms};
 use crate::batch::folder::{NotOpened, OutputFolder};
 use crate::batch::formats::worksheet;
-use crate::batch::intake::Intake;
 use crate::batch::journal::{self, FoundJournal, JournalHeader, UnreadableJournal};
 use crate::batch::resume::NotBegun;
 use crate::cli::BatchArguments;
 use crate::command::{file_fault, language, writing};
+use crate::intake::Intake;
 use crate::language::{Language, Text};
 use crate::report::wrap::plain;
 use crate::slots::Slot;

@@ -1,7 +1,7 @@
 //! The shapes of requests and answers.
 
-use crate::batch::class::Refused;
 use crate::batch::formats::ClassFormat;
+use crate::intake::Refused;
 use crate::language::Language;
 use crate::report::Report;
 use crate::report::json::{self, JsonReport};

@@ -1,7 +1,7 @@
 //! The class as people: what each has handed in, and what of it counts.
 
 use super::PersonStanding;
-use crate::batch::class::Participant;
+use crate::intake::Participant;
 use crate::language::Text;
 use crate::service::State;
 use crate::service::clock::Millis;

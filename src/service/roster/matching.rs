@@ -4,8 +4,7 @@
 //! two of them say different people, or one of them could be two people, nobody is taken: a file that counts for the
 //! wrong student is worse than one that is shown apart.
 
-use crate::batch::class::Student as Entry;
-use crate::batch::intake::is_blind;
+use crate::intake::{Student as Entry, is_blind};
 use crate::service::identity::normal_number;
 use crate::service::store::StudentRecord;
 use std::collections::{HashMap, HashSet};
@@ -123,7 +122,7 @@ fn name_keys(name: &str) -> HashSet<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::batch::class::Participant;
+    use crate::intake::Participant;
 
     fn student(number: &str, name: &str, moodle: Option<i64>) -> StudentRecord {
         StudentRecord {

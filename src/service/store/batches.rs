@@ -3,7 +3,7 @@
 use super::keys::keep_key;
 use super::submissions::insert_submission;
 use super::{NewSubmission, Result, Store, StoredKey, on};
-use crate::batch::class::{Refused, Student};
+use crate::intake::{Refused, Student};
 use crate::language::Text;
 use crate::service::clock::Millis;
 

@@ -1,9 +1,9 @@
 //! The files of an upload: which of them are asked for, and whether they are texts.
 
 use super::{MAX_UPLOAD, Upload, file_name, may_hand_in, too_large};
-use crate::batch::intake::{self, HandInContent, HandInPart};
 use crate::diagnostic::Diagnostic;
 use crate::hand_in::{HandIn, HandedInFile};
+use crate::intake::{self, HandInContent, HandInPart};
 use crate::language::Text;
 use crate::service::State;
 use crate::service::blocking::aside;

@@ -1,10 +1,11 @@
 //! Annotations: `::error file=…,line=…::message`.
 
-use crate::batch::class::{Class, ClassEntry, FileLocation};
+use crate::batch::class::{Class, ClassEntry};
 use crate::batch::formats::untrusted::{one_line, visible};
 use crate::batch::formats::wording;
 use crate::batch::standing::Standing;
 use crate::diagnostic::{Diagnostic, Severity};
+use crate::intake::FileLocation;
 use crate::language::{Language, Text};
 use crate::report::{Report, RubricLine, Verdict};
 use std::collections::VecDeque;

@@ -161,8 +161,9 @@ fn code(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::batch::class::{Outcome, Refused};
+    use crate::batch::class::Outcome;
     use crate::batch::formats::nasty;
+    use crate::intake::Refused;
     use crate::report::samples;
 
     #[test]

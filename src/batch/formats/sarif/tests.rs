@@ -1,6 +1,6 @@
 use super::*;
-use crate::batch::class::FileLocation;
 use crate::batch::formats::nasty;
+use crate::intake::FileLocation;
 use crate::report::samples;
 
 /// The schema of SARIF 2.1.0, formats such as `uri-reference` included.

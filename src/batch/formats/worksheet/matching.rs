@@ -6,8 +6,9 @@
 //! `GROUP-NAME` and the participant's number: then number, group and name must agree.
 
 use super::sheet::{Worksheet, WorksheetPerson};
-use crate::batch::class::{Class, ClassEntry, Participant};
+use crate::batch::class::{Class, ClassEntry};
 use crate::batch::formats::feedback::Recipient;
+use crate::intake::Participant;
 use std::collections::{BTreeSet, HashMap};
 use unicode_normalization::UnicodeNormalization;
 

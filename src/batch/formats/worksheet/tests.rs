@@ -4,8 +4,8 @@ mod rounds;
 
 use super::raw::records;
 use super::*;
-use crate::batch::class::Participant;
 use crate::batch::formats::samples;
+use crate::intake::Participant;
 use crate::language::Language;
 use encoding_rs::SHIFT_JIS;
 

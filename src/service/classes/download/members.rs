@@ -2,11 +2,11 @@
 
 use super::participants::participants;
 use super::{DownloadSelection, Pick};
-use crate::batch::class::{Class, FileLocation, Outcome, Participant, Refused, Student};
-use crate::batch::intake::{HandInContent, StudentWork, portable};
+use crate::batch::class::{Class, Outcome};
 use crate::batch::roll::roll;
 use crate::fault::Fault;
 use crate::hand_in::HandIn;
+use crate::intake::{FileLocation, HandInContent, Participant, Refused, Student, StudentWork, portable};
 use crate::language::{Language, Text};
 use crate::service::State;
 use crate::service::classes::people::{Person, people};

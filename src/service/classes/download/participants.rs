@@ -1,7 +1,7 @@
 //! Who of the class the participants of Moodle's worksheet are.
 
-use crate::batch::class::{Participant, Student};
 use crate::batch::formats::worksheet::{ListedParticipant, listed};
+use crate::intake::{Participant, Student};
 use crate::service::State;
 use crate::service::errors::Problem;
 use crate::service::roster::Matcher;

@@ -1,9 +1,10 @@
 //! Assignments in which groups hand in.
 
 use super::moodle::Moodle;
-use crate::batch::class::{Class, Outcome, Participant};
+use crate::batch::class::{Class, Outcome};
 use crate::batch::formats::samples;
 use crate::batch::formats::worksheet::{fill, recipients};
+use crate::intake::Participant;
 use crate::language::Language;
 use crate::report::samples as reports;
 

@@ -1,8 +1,8 @@
 //! Keys that tell students apart and are safe as names of files on every system.
 
+use super::Student;
 use super::moodle;
 use super::students::Who;
-use crate::batch::class::Student;
 use sha2::{Digest, Sha256};
 use std::collections::HashMap;
 
@@ -92,7 +92,7 @@ fn hashed(who: &Who) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::batch::class::Participant;
+    use crate::intake::Participant;
 
     fn who(name: &str, place: &str) -> Who {
         Who { name: name.into(), moodle: None, place: place.into() }

@@ -8,8 +8,7 @@
 use super::layout::{holds_classes, is_moodle, is_one_student, of_folder, without_zip};
 use super::moodle::{self, Loose, Marked};
 use super::tree::{Held, TreeFile, TreeFolder, TreeNode};
-use super::{IntakeOptions, Refused};
-use crate::batch::class::Participant;
+use super::{IntakeOptions, Participant, Refused};
 use crate::language::Text;
 use crate::slots::{NameFit, fit};
 use std::collections::HashMap;

@@ -1,8 +1,9 @@
 //! Reads one input after the other, within the limits, and keeps what it refuses.
 
 use super::tree::{Held, TreeFile, TreeFolder};
-use super::{Budget, HandInPart, IntakeOptions, archive, folder, in_working_folder, is_archive, limits, place};
-use crate::batch::class::Refused;
+use super::{
+    Budget, HandInPart, IntakeOptions, Refused, archive, folder, in_working_folder, is_archive, limits, place,
+};
 use crate::hand_in::HandedInFile;
 use crate::language::Text;
 use crate::slots::NameFit;

@@ -2,7 +2,7 @@
 
 use super::record::{self, ArchiveRecord, LOCAL, LOCAL_SIGNATURE};
 use super::storage::ArchiveStorage;
-use crate::batch::intake::IntakeLimits;
+use crate::intake::IntakeLimits;
 use crate::language::Text;
 use std::io::Read;
 

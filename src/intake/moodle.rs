@@ -9,7 +9,7 @@
 //!
 //! Moodle writes no `_` into a NAME, but the archiver makes one of `*`, `?` and some more.
 
-use crate::batch::class::Participant;
+use super::Participant;
 
 const MARK: &str = "_assignsubmission_";
 /// The words for a participant under blind marking, in the languages of the course.

@@ -1,7 +1,7 @@
 //! What is said of files that can be several students'.
 
+use super::Participant;
 use super::moodle;
-use crate::batch::class::Participant;
 use crate::language::Text;
 use crate::slots::wording::list;
 

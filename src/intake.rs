@@ -18,14 +18,15 @@ mod students;
 mod tests;
 mod tree;
 mod wording;
+mod work;
 
 pub use key::portable;
 pub use limits::{Budget, IntakeLimits};
 #[cfg(feature = "service")]
 pub(crate) use moodle::is_blind;
 pub use place::in_working_folder;
+pub use work::{FileLocation, Participant, Refused, Student};
 
-use super::class::{FileLocation, Refused, Student};
 use crate::fault::Fault;
 use crate::hand_in::{HandIn, HandedInFile};
 use crate::language::Text;

@@ -3,8 +3,7 @@
 use super::folder;
 use super::students::{Owned, StudentFiles};
 use super::tree::Held;
-use super::{HandInContent, IntakeOptions, in_working_folder};
-use crate::batch::class::FileLocation;
+use super::{FileLocation, HandInContent, IntakeOptions, in_working_folder};
 use crate::hand_in::{HandIn, HandedInFile};
 use crate::language::Text;
 use crate::slots::{self, Offered, SlotProblem, Trust, wording};

@@ -1,7 +1,7 @@
 //! Whose each file is, in the ways in which classes come.
 
 use super::*;
-use crate::batch::class::Participant;
+use crate::intake::Participant;
 
 #[test]
 fn each_folder_is_a_student_and_an_empty_one_too() {
