@@ -4,8 +4,8 @@
 //! pseudonyms again, another folder gives others, and without the key nobody can try names until one fits. What a student
 //! wrote inside the file stays as it is: a name in a comment is still there.
 
-use super::folder::OutputFolder;
-use super::formats::plain::cell;
+use crate::class::folder::OutputFolder;
+use crate::class::formats::plain::cell;
 use crate::fault::Fault;
 use crate::intake::{FileLocation, HandInContent, Intake, Refused, Student, StudentWork};
 use crate::language::Text;

@@ -1,9 +1,9 @@
 //! What a class's grades became since an earlier grading of it: who gains, who loses, and why.
 
-use super::class::{Class, ClassEntry, Outcome};
-use super::folder::OutputFolder;
 use super::journal::{JournalHeader, JournalRecord};
-use super::standing::Standing;
+use crate::class::folder::OutputFolder;
+use crate::class::standing::Standing;
+use crate::class::{Class, ClassEntry, Outcome};
 use crate::fault::Fault;
 use crate::intake::Student;
 use crate::language::Text;

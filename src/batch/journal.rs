@@ -7,10 +7,10 @@ mod found;
 
 pub use found::{FoundJournal, UnreadableJournal, read};
 
-use super::class::Outcome;
-use super::folder::{OutputFolder, unwritable};
-use super::roll::GradingCandidate;
 use super::shard::Shard;
+use crate::class::Outcome;
+use crate::class::folder::{OutputFolder, unwritable};
+use crate::class::roll::GradingCandidate;
 use crate::diagnose::Hints;
 use crate::fault::Fault;
 use crate::intake::Student;

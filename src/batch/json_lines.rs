@@ -1,7 +1,7 @@
 //! One JSON object for each finished entry, for programs that follow a run.
 
-use super::class::{AlikeStudent, ClassEntry, Outcome};
-use super::standing::Standing;
+use crate::class::standing::Standing;
+use crate::class::{AlikeStudent, ClassEntry, Outcome};
 use crate::intake::Student;
 use crate::language::Language;
 use crate::report::json;

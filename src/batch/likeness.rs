@@ -1,6 +1,6 @@
 //! `likeness.html`: the answers of a class that are alike, side by side, on one page without scripts.
 
-use super::folder::OutputFolder;
+use crate::class::folder::OutputFolder;
 use crate::fault::Fault;
 use crate::language::{Language, Text};
 use crate::likeness::Comparison;

@@ -1,7 +1,7 @@
 //! What a person sees while a class is graded: a bar with rate, remaining time and the verdicts so far.
 
-use super::class::ClassEntry;
-use super::standing::{Standing, StandingCounts};
+use crate::class::ClassEntry;
+use crate::class::standing::{Standing, StandingCounts};
 use crate::language::{Language, Text};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use std::fmt::Write;

@@ -1,11 +1,11 @@
 //! How a run begins: in a new folder, where an earlier run stopped, or in place of one.
 
-use super::class::{ClassEntry, Outcome};
-use super::folder::{OutputFolder, page_file, portrait_file};
-use super::formats::{ClassFormat, KEY};
 use super::journal::{self, FoundJournal, JournalHeader, JournalRecord, UnreadableJournal};
-use super::output::Wants;
-use super::roll::GradingCandidate;
+use crate::class::folder::{OutputFolder, page_file, portrait_file};
+use crate::class::formats::{ClassFormat, KEY};
+use crate::class::output::Wants;
+use crate::class::roll::GradingCandidate;
+use crate::class::{ClassEntry, Outcome};
 use crate::fault::Fault;
 use crate::language::Text;
 use clap::ValueEnum;

@@ -1,11 +1,11 @@
 //! Grades what was handed in: all processors busy, each result written as it comes.
 
-use super::class::{ClassEntry, Outcome};
-use super::folder::{OutputFolder, page_file, portrait_file};
 use super::journal::{Journal, RecordOf};
-use super::page::Pages;
-use super::portrait::Portraits;
-use super::roll::{GradingCandidate, groups};
+use crate::class::folder::{OutputFolder, page_file, portrait_file};
+use crate::class::page::Pages;
+use crate::class::portrait::Portraits;
+use crate::class::roll::{GradingCandidate, groups};
+use crate::class::{ClassEntry, Outcome};
 use crate::fault::Fault;
 use crate::grade::{self, Order};
 use crate::language::Text;

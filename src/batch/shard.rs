@@ -3,10 +3,10 @@
 //! Every shard reads the whole input, because who shares an answer is a fact about the whole class. It grades its own
 //! students only. Hand-ins that need one grading are in one shard.
 
-use super::folder::{OutputFolder, page_file, portrait_file};
 use super::journal::{self, FoundJournal, JournalRecord, UnreadableJournal};
 use super::resume::NotBegun;
-use super::roll::{GradingCandidate, groups};
+use crate::class::folder::{OutputFolder, page_file, portrait_file};
+use crate::class::roll::{GradingCandidate, groups};
 use crate::fault::Fault;
 use crate::language::Text;
 use serde::{Deserialize, Serialize};
@@ -128,7 +128,7 @@ fn copy(folder: &OutputFolder, from: &Path, record: &JournalRecord) -> Result<()
         match std::fs::read(from.join(&name)) {
             Ok(bytes) => drop(folder.write(&name, &bytes)?),
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => {}
-            Err(error) => return Err(super::folder::unreadable(&from.join(&name), &error)),
+            Err(error) => return Err(crate::class::folder::unreadable(&from.join(&name), &error)),
         }
     }
     Ok(())

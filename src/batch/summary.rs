@@ -5,10 +5,10 @@ mod changes;
 mod tests;
 
 use super::changes::Changes;
-use super::class::{Class, Outcome};
-use super::output::WrittenFiles;
-use super::standing::Standing;
-use super::statistics::{self, Averages, BINS};
+use crate::class::output::WrittenFiles;
+use crate::class::standing::Standing;
+use crate::class::statistics::{self, Averages, BINS};
+use crate::class::{Class, Outcome};
 use crate::language::{Language, Text};
 use crate::report::labels::mistake_title;
 use crate::report::wrap::{columns, pad, plain, wrap};

@@ -1,8 +1,8 @@
 //! Arguments of `ggrade batch`.
 
 use super::{MachineArguments, SandboxArguments};
-use crate::batch::formats::ClassFormat;
 use crate::batch::shard::Shard;
+use crate::class::formats::ClassFormat;
 use crate::diagnose::Hints;
 use crate::language::Language;
 use crate::sandbox::DEADLINE_SECONDS;

@@ -1,6 +1,6 @@
 //! How `ggrade grade` writes a report.
 
-use crate::batch::formats::{self, exchange};
+use crate::class::formats::{self, exchange};
 use clap::ValueEnum;
 use clap::builder::PossibleValue;
 use std::sync::LazyLock;

@@ -6,9 +6,9 @@
 use super::files::{self, NotTaken};
 use super::grade::GradeRequest;
 use super::{ExitStatus, file_fault, grade, writing};
-use crate::batch::class::{Class, ClassEntry, Outcome};
-use crate::batch::formats::{ClassFormat, exchange, github, vpl};
-use crate::batch::portrait::Portraits;
+use crate::class::formats::{ClassFormat, exchange, github, vpl};
+use crate::class::portrait::Portraits;
+use crate::class::{Class, ClassEntry, Outcome};
 use crate::fault::Fault;
 use crate::intake::Student;
 use crate::language::Text;

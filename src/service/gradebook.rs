@@ -5,7 +5,7 @@ use super::courses;
 use super::download;
 use super::errors::Problem;
 use super::{Service, State};
-use crate::batch::formats::plain::cell;
+use crate::class::formats::plain::cell;
 use crate::language::Language;
 use axum::response::Response;
 use std::collections::BTreeMap;

@@ -121,7 +121,7 @@ fn what_cannot_be_done_is_said_before_anything_is_graded() {
 fn two_runs_do_not_write_into_one_folder() {
     let place = Place::of(&[("a", &sample(RIGHT))]);
     let out = place.at("out");
-    let held = ggrade::batch::folder::OutputFolder::open(&out).unwrap();
+    let held = ggrade::class::folder::OutputFolder::open(&out).unwrap();
     place.batch("out").assert().code(2).stderr(predicate::str::contains("another ggrade"));
     drop(held);
     place.batch("out").assert().code(0);

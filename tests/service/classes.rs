@@ -6,7 +6,7 @@ use crate::{on_both, right, right_and_new, sample};
 use axum::body::Body;
 use axum::http::{Request, StatusCode, header};
 use clap::ValueEnum;
-use ggrade::batch::formats::ClassFormat;
+use ggrade::class::formats::ClassFormat;
 use ggrade::report::Verdict;
 use ggrade::service::regrade;
 use ggrade::service::store::RosterLine;

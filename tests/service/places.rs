@@ -7,7 +7,7 @@ use axum::body::Body;
 use axum::http::{Request, StatusCode, header};
 use base64::Engine;
 use clap::ValueEnum;
-use ggrade::batch::formats::ClassFormat;
+use ggrade::class::formats::ClassFormat;
 use std::io::{Cursor, Read, Write};
 
 on_both!(nothing_of_an_uploaded_archive_names_a_folder_of_the_machine);

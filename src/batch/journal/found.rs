@@ -1,7 +1,7 @@
 //! A journal read back: its header, and what became of each student as far as the lines are whole.
 
 use super::{JournalHeader, JournalRecord, SCHEMA};
-use crate::batch::folder::unreadable;
+use crate::class::folder::unreadable;
 use crate::fault::Fault;
 use crate::language::Text;
 use std::fs::File;

@@ -1,7 +1,7 @@
 //! Tests of the summary.
 
 use super::*;
-use crate::batch::class::ClassEntry;
+use crate::class::ClassEntry;
 use crate::fault::Fault;
 use crate::intake::{Refused, Student};
 use crate::report::samples;

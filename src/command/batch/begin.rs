@@ -1,10 +1,10 @@
 //! What is looked at before anything is graded.
 
 use crate::batch::anonymous::{self, Pseudonyms};
-use crate::batch::folder::{NotOpened, OutputFolder};
-use crate::batch::formats::worksheet;
 use crate::batch::journal::{self, FoundJournal, JournalHeader, UnreadableJournal};
 use crate::batch::resume::NotBegun;
+use crate::class::folder::{NotOpened, OutputFolder};
+use crate::class::formats::worksheet;
 use crate::cli::BatchArguments;
 use crate::command::{file_fault, language, writing};
 use crate::intake::Intake;

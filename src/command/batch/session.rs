@@ -1,19 +1,19 @@
 //! A run on its way: what is kept, what is graded, what is written at the end.
 
 use crate::batch::changes::Changes;
-use crate::batch::class::{Class, ClassEntry, Outcome};
-use crate::batch::folder::OutputFolder;
-use crate::batch::formats::ClassFormat;
 use crate::batch::journal::{self, FoundJournal, Journal, JournalHeader, JournalRecord, RecordOf};
-use crate::batch::output::Wants;
-use crate::batch::page::Pages;
-use crate::batch::portrait::Portraits;
 use crate::batch::progress::ClassProgress;
 use crate::batch::resume::{self, NotBegun};
-use crate::batch::roll::GradingCandidate;
 use crate::batch::run::ClassRun;
 use crate::batch::shard::Shard;
-use crate::batch::{anonymous, json_lines, likeness, output, summary};
+use crate::batch::{anonymous, json_lines, likeness, summary};
+use crate::class::folder::OutputFolder;
+use crate::class::formats::ClassFormat;
+use crate::class::output::{self, Wants};
+use crate::class::page::Pages;
+use crate::class::portrait::Portraits;
+use crate::class::roll::GradingCandidate;
+use crate::class::{Class, ClassEntry, Outcome};
 use crate::cli::BatchArguments;
 use crate::command::interrupt::Interrupt;
 use crate::command::{ExitStatus, report_fault, warn, width};

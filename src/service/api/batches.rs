@@ -5,7 +5,7 @@ use super::body::unkept;
 use super::caller::check_page;
 use super::refusals::{Errors, NotFound, Refusals};
 use super::schema::{BatchJson, FilledFormatName, FormatName, IdempotencyKey};
-use crate::batch::formats::ClassFormat;
+use crate::class::formats::ClassFormat;
 use crate::language::Language;
 use crate::service::acts::Detail;
 use crate::service::classes::{self, Download, DownloadOptions, DownloadSelection};

@@ -2,7 +2,7 @@
 
 use super::batches::OfQuery;
 use super::refusals::{Errors, NotFound, Refusals};
-use crate::batch::formats::plain::cell;
+use crate::class::formats::plain::cell;
 use crate::service::Service;
 use crate::service::download;
 use crate::service::errors::Problem;

@@ -1,6 +1,6 @@
 //! The shapes of requests and answers.
 
-use crate::batch::formats::ClassFormat;
+use crate::class::formats::ClassFormat;
 use crate::intake::Refused;
 use crate::language::Language;
 use crate::report::Report;

@@ -7,9 +7,9 @@ mod written;
 
 pub use archive::archive;
 
-use crate::batch::class::{Class, Outcome};
-use crate::batch::formats::{ClassFormat, worksheet};
-use crate::batch::output;
+use crate::class::formats::{ClassFormat, worksheet};
+use crate::class::output;
+use crate::class::{Class, Outcome};
 use crate::language::{Language, Text};
 use crate::service::State;
 use crate::service::blocking::{aside, blocking};

@@ -1,6 +1,6 @@
 //! The pictures of right answers, which each homework has once.
 
-use crate::batch::portrait::{self, Portraits};
+use crate::class::portrait::{self, Portraits};
 use crate::fault::Fault;
 use crate::pictures::expected_pictures;
 use crate::report::pictures;

@@ -5,7 +5,7 @@ use crate::cluster::Database;
 use crate::on_both;
 use crate::roster::{archive, get, zip};
 use clap::ValueEnum;
-use ggrade::batch::formats::ClassFormat;
+use ggrade::class::formats::ClassFormat;
 use serde_json::json;
 
 on_both!(a_class_of_several_files_each_is_shown_and_downloaded);

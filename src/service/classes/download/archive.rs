@@ -4,9 +4,9 @@
 use super::members::{class, members, student};
 use super::written::{disk, page, zip_into};
 use super::{DownloadSelection, Pick, Steps};
-use crate::batch::class::{Class, ClassEntry, Outcome};
-use crate::batch::formats::plain::cell;
-use crate::batch::formats::{grades, page as class_page};
+use crate::class::formats::plain::cell;
+use crate::class::formats::{grades, page as class_page};
+use crate::class::{Class, ClassEntry, Outcome};
 use crate::fault::Fault;
 use crate::hand_in::{HandIn, HandedInFile};
 use crate::language::Language;

@@ -2,8 +2,8 @@
 
 use super::participants::participants;
 use super::{DownloadSelection, Pick};
-use crate::batch::class::{Class, Outcome};
-use crate::batch::roll::roll;
+use crate::class::roll::roll;
+use crate::class::{Class, Outcome};
 use crate::fault::Fault;
 use crate::hand_in::HandIn;
 use crate::intake::{FileLocation, HandInContent, Participant, Refused, Student, StudentWork, portable};

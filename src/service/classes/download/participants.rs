@@ -1,6 +1,6 @@
 //! Who of the class the participants of Moodle's worksheet are.
 
-use crate::batch::formats::worksheet::{ListedParticipant, listed};
+use crate::class::formats::worksheet::{ListedParticipant, listed};
 use crate::intake::{Participant, Student};
 use crate::service::State;
 use crate::service::errors::Problem;

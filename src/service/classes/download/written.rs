@@ -1,11 +1,11 @@
 //! What a download consists of, written to files.
 
 use super::Download;
-use crate::batch::class::{Class, ClassEntry};
-use crate::batch::folder::{NotOpened, OutputFolder};
-use crate::batch::formats::{ClassFormat, KEY};
-use crate::batch::output::{self, WrittenFiles};
-use crate::batch::page::Pages;
+use crate::class::folder::{NotOpened, OutputFolder};
+use crate::class::formats::{ClassFormat, KEY};
+use crate::class::output::{self, WrittenFiles};
+use crate::class::page::Pages;
+use crate::class::{Class, ClassEntry};
 use crate::fault::Fault;
 use crate::language::{Language, Text};
 use crate::report::Report;

@@ -3,7 +3,7 @@
 use super::super::frame::PageFrame;
 use super::super::shown;
 use super::Tab;
-use crate::batch::formats::plain::cell;
+use crate::class::formats::plain::cell;
 use crate::service::Service;
 use crate::service::acts::Detail;
 use crate::service::download;

@@ -3,7 +3,7 @@
 use super::super::frame::PageFrame;
 use super::super::shown;
 use super::{Tab, batches};
-use crate::batch::formats::ClassFormat;
+use crate::class::formats::ClassFormat;
 use crate::language::Text;
 use crate::service::State;
 use crate::service::api::batches::{WatchedJob as Watched, named, progress, saved};

@@ -5,7 +5,7 @@ use super::class;
 use super::downloads::begun;
 use super::refused;
 use super::table::TableFilter;
-use crate::batch::formats::ClassFormat;
+use crate::class::formats::ClassFormat;
 use crate::language::Language;
 use crate::service::State;
 use crate::service::api::batches::named;
