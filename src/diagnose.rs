@@ -252,7 +252,7 @@ fn shape_agrees(evidence: &Evidence<'_>, probes: &ComparedProbes) -> bool {
 fn judge(
     evidence: &Evidence<'_>,
     facts: &Facts,
-    line: &reference::assignment::RubricLine,
+    line: &reference::assignment::RubricItem,
     shape: bool,
     cause: &Cause,
     mistakes: &[String],

@@ -14,7 +14,7 @@ pub use crate::feed::{Attribute, Bounds, Feed, Role, Stream};
 use crate::free::Free;
 use crate::host::HostArray;
 use crate::interpreter::{Stage, Texture};
-pub use crate::manifest::{LectureName, RubricLine, Task};
+pub use crate::manifest::{LectureName, RubricItem, Task};
 use crate::mistake::{Mistake, MistakeForm};
 use crate::pipeline::Pipeline;
 use crate::probes::{Probing, Region};
@@ -71,7 +71,7 @@ pub struct Assignment {
     /// What a right answer computes.
     pub equation: Equation,
     /// What it is worth.
-    pub rubric: Vec<RubricLine>,
+    pub rubric: Vec<RubricItem>,
     /// For each line of the rubric the solution with 0 for the definition that it judges, where that is a part of what is seen.
     pub(crate) terms: Vec<Option<MistakeForm>>,
     /// For each line of the rubric the solution without what the line judges, where that is known.
@@ -204,7 +204,7 @@ impl Assignment {
                 );
                 AssignmentError { message, ..error }
             })?;
-            let manifest::Reading { id, note, .. } = reading;
+            let manifest::ReadingEntry { id, note, .. } = reading;
             let reading = Arc::new(Reading { id, note, assignment: read });
             assignment.files[file].accepted[accepted].reading = Some(reading);
         }
@@ -217,7 +217,7 @@ impl Assignment {
     }
 
     /// Whether a line is judged by where things are drawn, not by their colour.
-    pub fn judges_position(&self, line: &RubricLine) -> bool {
+    pub fn judges_position(&self, line: &RubricItem) -> bool {
         let judged = self.equation.index(&line.judges);
         judged.is_some() && judged == self.equation.position
     }

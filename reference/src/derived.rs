@@ -9,7 +9,7 @@ mod programs;
 mod within;
 mod wording;
 
-use crate::assignment::RubricLine;
+use crate::assignment::RubricItem;
 use crate::equation::{Equation, Reads};
 use crate::interpreter::{DefinitionSlip, Draft, FREE, Operator};
 use crate::mistake::{DefinitionOverride, FoundMistake, FreeParameter, Mistake, MistakeForm};
@@ -100,7 +100,7 @@ impl Derived {
     }
 
     /// Whether what a line judges is another with the mistake in it, or is used in another way.
-    pub(crate) fn touches(&self, found: &FoundMistake, line: &RubricLine) -> bool {
+    pub(crate) fn touches(&self, found: &FoundMistake, line: &RubricItem) -> bool {
         let assignment = &self.assignment;
         let shown = if assignment.judges_position(line) { Shown::Position } else { Shown::Colour };
         let within = self.lines_of(found, shown);
@@ -115,8 +115,8 @@ impl Derived {
         if !(about.is_empty() || assignment.judges_position(line)) {
             return about.contains(&line.id.as_str());
         }
-        let touched = |changes: fn(&Self, &FoundMistake, &RubricLine) -> bool| {
-            let is_touched = |line: &RubricLine| changes(self, found, line);
+        let touched = |changes: fn(&Self, &FoundMistake, &RubricItem) -> bool| {
+            let is_touched = |line: &RubricItem| changes(self, found, line);
             assignment.rubric.iter().any(is_touched).then(|| is_touched(line))
         };
         // What is another value by itself makes all the difference: terms behind a wrong factor are right. What concerns no
@@ -126,7 +126,7 @@ impl Derived {
     }
 
     /// Whether what a line judges is another.
-    fn changes(&self, found: &FoundMistake, line: &RubricLine) -> bool {
+    fn changes(&self, found: &FoundMistake, line: &RubricItem) -> bool {
         let equation = &self.assignment.equation;
         let Some(judged) = equation.index(&line.judges) else { return true };
         if self.assignment.is_beside_terms(line) {
@@ -142,7 +142,7 @@ impl Derived {
     }
 
     /// Whether the colour moves otherwise with what a line judges.
-    fn uses_otherwise(&self, found: &FoundMistake, line: &RubricLine) -> bool {
+    fn uses_otherwise(&self, found: &FoundMistake, line: &RubricItem) -> bool {
         /// In a colour beyond this nothing is left of what moves it.
         const LARGE: f64 = 1e3;
         let equation = &self.assignment.equation;

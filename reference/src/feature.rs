@@ -2,7 +2,7 @@
 
 use crate::Assignment;
 use crate::accepted::{AcceptedAnswer, Computed};
-use crate::assignment::RubricLine;
+use crate::assignment::RubricItem;
 use crate::equation::Reads;
 use crate::interpreter::Stage;
 use crate::interpreter::outline::{self, Word};
@@ -80,7 +80,7 @@ impl Assignment {
     }
 
     /// Whether a line judges what is left of the solution without the features of the others.
-    pub fn judges_the_rest(&self, line: &RubricLine) -> bool {
+    pub fn judges_the_rest(&self, line: &RubricItem) -> bool {
         let own = self.rubric.iter().position(|own| own.id == line.id);
         let has_none = own.and_then(|own| self.features.get(own)).is_some_and(Option::is_none);
         has_none && !self.judges_position(line) && self.features.iter().any(Option::is_some)
@@ -88,9 +88,9 @@ impl Assignment {
 
     /// Whether a line judges all that is seen while others judge definitions, such as terms: then a mistake changes what it judges
     /// wherever it stands, which says nothing.
-    pub fn is_beside_terms(&self, line: &RubricLine) -> bool {
+    pub fn is_beside_terms(&self, line: &RubricItem) -> bool {
         let colour = &self.equation.definitions[self.equation.colour].name;
-        let judges_a_term = |other: &RubricLine| other.judges != *colour && !self.judges_position(other);
+        let judges_a_term = |other: &RubricItem| other.judges != *colour && !self.judges_position(other);
         line.judges == *colour && self.rubric.iter().any(judges_a_term)
     }
 

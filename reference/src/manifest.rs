@@ -14,17 +14,17 @@ mod texture;
 mod toml_error;
 mod variant;
 
-pub use advice::{Advice, Circumstance};
-pub use equation::{Equation, SymbolMeaning, Term};
-pub use gradual::Gradual;
-pub use host::{HostArray, Notice};
-pub use interface::{Free, Input, Uniform};
+pub use advice::{AdviceEntry, CircumstanceEntry};
+pub use equation::{EquationEntry, SymbolMeaningEntry, TermEntry};
+pub use gradual::GradualEntry;
+pub use host::{HostArrayEntry, NoticeEntry};
+pub use interface::{FreeEntry, InputEntry, UniformEntry};
 pub use layers::{Layers, extended, line_of_extends, name_of_base};
-pub use mistake::{Alternative, Fit, Mistake, TermState, When};
-pub use pass::Pass;
-pub use probes::{Design, Probes, Range, Region};
-pub use scene::{Depth, Draw, Point, Poses, Scene, Scenes};
-pub use texture::{Format, Picture, Texture, TextureSize, Wraps};
+pub use mistake::{AlternativeEntry, FitEntry, MistakeEntry, TermState, When};
+pub use pass::PassEntry;
+pub use probes::{DesignEntry, Probes, Range, RegionEntry};
+pub use scene::{Depth, DrawEntry, PointEntry, Poses, SceneEntry, Scenes};
+pub use texture::{Format, PictureOrigin, TextureEntry, TextureSize, Wraps};
 pub use variant::Variant;
 
 use crate::Text;
@@ -54,7 +54,7 @@ pub struct Manifest {
     #[serde(default)]
     pub time: Option<Spanned<u32>>,
     /// What the lecture writes.
-    pub equation: Option<Equation>,
+    pub equation: Option<EquationEntry>,
     /// The files that are handed in.
     pub file: Vec<File>,
     /// The stages that are not handed in.
@@ -62,28 +62,28 @@ pub struct Manifest {
     pub fixed: Vec<Fixed>,
     /// Vertex attributes.
     #[serde(default)]
-    pub input: Vec<Input>,
+    pub input: Vec<InputEntry>,
     /// Uniforms.
     #[serde(default)]
-    pub uniform: Vec<Uniform>,
+    pub uniform: Vec<UniformEntry>,
     /// What samplers read.
     #[serde(default)]
-    pub texture: Vec<Texture>,
+    pub texture: Vec<TextureEntry>,
     /// What is drawn into a texture before each picture.
     #[serde(default)]
-    pub pass: Vec<Pass>,
+    pub pass: Vec<PassEntry>,
     /// Uniforms that students add and name.
     #[serde(default)]
-    pub free: Vec<Free>,
+    pub free: Vec<FreeEntry>,
     /// The solution, changed: what that shows otherwise is not judged.
     #[schemars(with = "Vec<Variant>")]
     #[serde(default)]
     pub unjudged: Vec<Spanned<Variant>>,
     /// What is judged by its course between places that are judged.
-    pub gradual: Option<Gradual>,
+    pub gradual: Option<GradualEntry>,
     /// What the handed-out file defines, as the solution does.
     #[serde(default)]
-    pub constant: Vec<Constant>,
+    pub constant: Vec<ConstantEntry>,
     /// Geometry, camera, animation: one table, or several, of which the first is the course's own.
     pub scene: Scenes,
     /// What the lecture says of the solution's definitions, or of the variables of one that is no list of definitions, by their names.
@@ -94,20 +94,20 @@ pub struct Manifest {
     pub probes: Probes,
     /// What a right answer shows at a probe; the first whose condition holds.
     #[serde(default)]
-    pub region: Vec<Region>,
+    pub region: Vec<RegionEntry>,
     /// Lines of the rubric.
-    pub rubric: Vec<RubricLine>,
+    pub rubric: Vec<RubricItem>,
     /// The known mistakes.
     #[serde(default)]
-    pub mistake: Vec<Mistake>,
+    pub mistake: Vec<MistakeEntry>,
     /// What is said of right answers that would break elsewhere.
     #[serde(default)]
-    pub advice: Vec<Advice>,
+    pub advice: Vec<AdviceEntry>,
 }
 
 impl Manifest {
     /// The other readings of what is asked for: the place of the file that is handed in, that among what is accepted for it.
-    pub fn read_otherwise(&self) -> Vec<(usize, usize, Reading)> {
+    pub fn read_otherwise(&self) -> Vec<(usize, usize, ReadingEntry)> {
         let of_file = |(file, entry): (usize, &File)| {
             let readings = entry.accepted.iter().enumerate().filter_map(move |(place, accepted)| match accepted {
                 Accepted::Reading(reading) => Some((file, place, reading.clone())),
@@ -155,7 +155,7 @@ pub struct File {
     #[serde(default)]
     pub fixed: Vec<Fixed>,
     /// What is read of the file where it is a program in C++, and no shader.
-    pub array: Option<HostArray>,
+    pub array: Option<HostArrayEntry>,
 }
 
 /// A file that is right beside the solution.
@@ -165,13 +165,14 @@ pub enum Accepted {
     /// It is right, and nothing is said.
     File(String),
     /// Another reading of what is asked for.
-    Reading(Reading),
+    Reading(ReadingEntry),
 }
 
 /// Another reading of what is asked for: it costs nothing, and is told.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Reading {
+#[schemars(rename = "Reading")]
+pub struct ReadingEntry {
     /// The file, which defines what the solution defines.
     pub file: String,
     /// Its id in reports, among the advice.
@@ -203,7 +204,8 @@ pub struct Fixed {
 /// A constant of the handed-out file.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Constant {
+#[schemars(rename = "Constant")]
+pub struct ConstantEntry {
     /// Its name in the shader.
     pub name: String,
     /// What it means.
@@ -237,7 +239,8 @@ impl LectureName {
 /// A line of the rubric.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct RubricLine {
+#[schemars(rename = "RubricLine")]
+pub struct RubricItem {
     /// Its id in reports.
     pub id: String,
     /// Its points.

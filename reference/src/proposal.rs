@@ -27,7 +27,7 @@ use crate::text::both;
 use crate::{Assignment, Folder, Text};
 use rubric::ProposedLine;
 use source::SolutionFile;
-use uniforms::{AttributeEntry, UniformEntry};
+use uniforms::{ProposedAttribute, ProposedUniform};
 
 /// The name of the schema in a folder. A hidden file is no part of the homework.
 pub const SCHEMA: &str = ".assignment.schema.json";
@@ -78,8 +78,8 @@ struct FolderPlan {
     sources: Vec<SolutionFile>,
     starters: Vec<String>,
     fixed: Option<stages::FixedFile>,
-    attributes: Vec<AttributeEntry>,
-    uniforms: Vec<UniformEntry>,
+    attributes: Vec<ProposedAttribute>,
+    uniforms: Vec<ProposedUniform>,
     scene: scene::Proposed,
     rubric: Vec<ProposedLine>,
     remarks: Vec<ProposalRemark>,

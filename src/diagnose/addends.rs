@@ -9,7 +9,7 @@ use super::columns::{ScalarColumns, is_constant, is_number, is_same, of_places};
 use super::inside::{self, made_of};
 use super::trials::{FUEL_OF_TRACE, StageChanges, is_drawn, place};
 use glam::DVec3;
-use reference::assignment::RubricLine;
+use reference::assignment::RubricItem;
 use reference::equation::Reads;
 use reference::fit::TermJudgement;
 use reference::interpreter::trace::{Event, Trace, ValueChange, What};
@@ -178,7 +178,7 @@ impl<'a> TextEvaluation<'a> {
     }
 
     /// Whether it has the line's right term as an addend of the colour.
-    fn adds(&mut self, line: &RubricLine) -> bool {
+    fn adds(&mut self, line: &RubricItem) -> bool {
         let Some(definition) = self.evidence.assignment.equation.index(&line.judges) else { return false };
         let term = self.right(&line.judges);
         let right = self.evidence.assignment.equation.right();

@@ -14,7 +14,7 @@ use crate::render::Sample;
 use crate::report::Hypothesis;
 use glam::DVec3;
 use reference::Assignment;
-use reference::assignment::RubricLine;
+use reference::assignment::RubricItem;
 use reference::derived::{definition, is_derived};
 use reference::equation::{DISCARDED, Reads};
 use reference::fit::{Alternatives, FeatureDefect, FeatureExplanation, TermJudgement, judge_terms};
@@ -160,7 +160,7 @@ impl Cause {
         }
         let ids = self.ids();
         let left =
-            |line: &RubricLine| ids.iter().map(|id| kept(assignment, line, shape, &self, id)).fold(1.0, f64::min);
+            |line: &RubricItem| ids.iter().map(|id| kept(assignment, line, shape, &self, id)).fold(1.0, f64::min);
         let terms = std::cell::LazyCell::new(|| terms_alone(evidence));
         let is_right = |line: &str| terms.iter().any(|term| term.line == line && term.is_right());
         let absent = inside::absent_lines(evidence, &is_right);
@@ -187,10 +187,10 @@ impl Cause {
         let assignment = evidence.assignment;
         let Self::Known { constants, found, spared } = &mut self else { return self };
         let ([], [only]) = (&constants[..], &found[..]) else { return self };
-        let is_cost = |line: &&RubricLine| {
+        let is_cost = |line: &&RubricItem| {
             !assignment.judges_position(line) && assignment.keeps(only, line) < 1.0 && !spared.contains(&line.id)
         };
-        let costs: Vec<&RubricLine> = assignment.rubric.iter().filter(is_cost).collect();
+        let costs: Vec<&RubricItem> = assignment.rubric.iter().filter(is_cost).collect();
         if costs.len() > 1 {
             let terms = inside::right_terms(evidence);
             let right = costs.iter().filter(|line| terms.contains(&line.id)).map(|line| line.id.clone());
@@ -205,7 +205,7 @@ impl Cause {
     /// The cause, or that it is not known: a mistake that nobody wrote down and that costs nothing does not make an answer wrong.
     pub(super) fn unless_free(self, evidence: &Evidence<'_>, shape: bool) -> Self {
         let ids = self.ids();
-        let costs = |line: &RubricLine| ids.iter().any(|id| kept(evidence.assignment, line, shape, &self, id) < 1.0);
+        let costs = |line: &RubricItem| ids.iter().any(|id| kept(evidence.assignment, line, shape, &self, id) < 1.0);
         if ids.is_empty() || self.is_written() || evidence.assignment.rubric.iter().any(costs) {
             return self;
         }

@@ -5,7 +5,7 @@ use crate::render::Sample;
 use crate::report::FrameResult;
 use crate::source::Source;
 use reference::Assignment;
-use reference::assignment::RubricLine;
+use reference::assignment::RubricItem;
 use reference::mistake::FoundMistake;
 use reference::probes::ProbeSet;
 use std::ops::Range;
@@ -69,7 +69,7 @@ fn is_equal(a: &Sample, b: &Sample) -> bool {
 /// missing, and white is everything added up.)
 pub fn is_coincidence(assignment: &Assignment, probes: &ProbeSet, samples: &[Sample], found: &[FoundMistake]) -> bool {
     let is_one_colour = samples.iter().all(|sample| is_equal(sample, &samples[0]));
-    let leaves = |line: &RubricLine| found.iter().all(|found| assignment.keeps(found, line) > 0.0);
+    let leaves = |line: &RubricItem| found.iter().all(|found| assignment.keeps(found, line) > 0.0);
     let mut colours = assignment.rubric.iter().filter(|line| !assignment.judges_position(line));
     found.iter().any(|found| found.parameter.is_some())
         || is_one_colour && colours.any(|line| leaves(line) && varies(assignment, probes, &line.judges))

@@ -6,7 +6,7 @@
 use super::columns::is_number;
 use super::trials::{FUEL_OF_TRACE, StageChanges, chosen, place};
 use super::{Evidence, Text};
-use reference::assignment::RubricLine;
+use reference::assignment::RubricItem;
 use reference::fit::TermJudgement;
 use reference::interpreter::Stage;
 use reference::interpreter::trace::What;
@@ -75,7 +75,7 @@ impl Listed {
     /// The lines of the rubric whose numbers are all right, and the others.
     pub fn terms(&self, evidence: &Evidence<'_>) -> Vec<TermJudgement> {
         let judged = evidence.samples.len();
-        let term = |line: &RubricLine| match self.wrong.iter().any(|wrong| line.numbers.contains(&wrong.name)) {
+        let term = |line: &RubricItem| match self.wrong.iter().any(|wrong| line.numbers.contains(&wrong.name)) {
             true => TermJudgement { matched: 0, ..TermJudgement::right(&line.id, judged) },
             false => TermJudgement::right(&line.id, judged),
         };
@@ -94,7 +94,7 @@ impl Listed {
     }
 
     /// Those that a line of the rubric is about; all where it is about none.
-    pub fn of_line(&self, line: &RubricLine) -> Self {
+    pub fn of_line(&self, line: &RubricItem) -> Self {
         let own: Vec<_> = self.wrong.iter().filter(|wrong| line.numbers.contains(&wrong.name)).cloned().collect();
         if own.is_empty() { self.clone() } else { Self { wrong: own } }
     }

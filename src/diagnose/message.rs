@@ -14,7 +14,7 @@ use super::{Cause, Evidence, Hints};
 use crate::language::Text;
 use blanks::Blanks;
 use kept::KeptLines;
-use reference::assignment::RubricLine;
+use reference::assignment::RubricItem;
 use reference::mistake::{FoundMistake, Mistake};
 
 /// A message and the line of the student's file that it speaks of.
@@ -29,7 +29,7 @@ pub(super) struct Told {
 pub(super) fn tell(
     evidence: &Evidence<'_>,
     facts: &Facts,
-    line: &RubricLine,
+    line: &RubricItem,
     cause: &Cause,
     culprits: &[&str],
 ) -> Told {
@@ -55,7 +55,7 @@ pub(super) fn tell(
     }
 }
 
-fn of_mistake(evidence: &Evidence<'_>, facts: &Facts, line: &RubricLine, cause: &Cause, mistake: &Mistake) -> Told {
+fn of_mistake(evidence: &Evidence<'_>, facts: &Facts, line: &RubricItem, cause: &Cause, mistake: &Mistake) -> Told {
     let mut blanks = Blanks::of(evidence, facts, line, cause, mistake);
     blanks.values.extend(facts.names.iter().map(|(name, value)| (name.as_str(), value.clone())));
     let values: Vec<(&str, &str)> = blanks.values.iter().map(|(name, value)| (*name, value.as_str())).collect();
@@ -195,13 +195,13 @@ impl Facts {
     }
 
     /// Where the mistake stands that a line of the rubric suffers from.
-    fn finding(&self, line: &RubricLine) -> Option<&Finding> {
+    fn finding(&self, line: &RubricItem) -> Option<&Finding> {
         let own = self.findings.iter().find(|finding| finding.touches.contains(&line.judges));
         own.or(self.findings.first())
     }
 
     /// The wrong numbers of a program that a line of the rubric suffers from by a mistake.
-    fn listed(&self, id: &str, line: &RubricLine) -> Option<Listed> {
+    fn listed(&self, id: &str, line: &RubricItem) -> Option<Listed> {
         let own = self.listed.iter().find(|(known, _)| known == id).map(|(_, own)| own.clone());
         own.or_else(|| Some(self.wrong.as_ref()?.of_line(line)))
     }

@@ -5,7 +5,7 @@ use crate::diagnose::constants;
 use crate::report::{Hypothesis, Picture, TermPictures};
 use crate::source::Source;
 use reference::Assignment;
-use reference::assignment::RubricLine;
+use reference::assignment::RubricItem;
 use reference::mistake::FoundMistake;
 use reference::rasteriser::ClipVertex;
 use reference::scene::Pose;
@@ -24,7 +24,7 @@ pub struct Terms<'a> {
 /// What there is to see of one term: the pose at which the submission is furthest from a right answer.
 #[derive(Clone, Copy, Debug)]
 pub struct TermScene<'a> {
-    line: &'a RubricLine,
+    line: &'a RubricItem,
     pose: Pose,
     /// Whether the submission computes the term as a right answer does, where it is known how it computes it.
     is_same: Option<bool>,
@@ -68,7 +68,7 @@ impl<'a> Terms<'a> {
         terms.filter_map(|line| self.scene(line)).collect()
     }
 
-    fn scene(&self, line: &'a RubricLine) -> Option<TermScene<'a>> {
+    fn scene(&self, line: &'a RubricItem) -> Option<TermScene<'a>> {
         let assignment = self.assignment;
         let right = assignment.equation.right();
         let variant = self.theirs.as_ref().and_then(|theirs| Some((theirs, theirs.variant(&self.found)?)));

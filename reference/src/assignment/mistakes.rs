@@ -1,6 +1,6 @@
 //! The mistakes of an assignment: what they cost, and what an answer that has them computes.
 
-use super::{Assignment, RubricLine};
+use super::{Assignment, RubricItem};
 use crate::Text;
 use crate::derived::{self, Derived, is_derived};
 use crate::equation::EquationVariant;
@@ -29,7 +29,7 @@ impl Assignment {
 
     /// Fraction of a rubric line's points that is kept by a mistake in the form in which it was found: 1 for a line that
     /// the form does not reach, although others of the same mistake do.
-    pub fn keeps(&self, found: &FoundMistake, line: &RubricLine) -> f64 {
+    pub fn keeps(&self, found: &FoundMistake, line: &RubricItem) -> f64 {
         let Some(mistake) = self.mistake(&found.id) else { return 1.0 };
         if let Some(derived) = self.deriving(&found.id) {
             return if derived.touches(found, line) { mistake.keeps(&line.id) } else { 1.0 };
@@ -44,7 +44,7 @@ impl Assignment {
     }
 
     /// The lines of the rubric that are about a variable of the solution; none where no line says so.
-    pub fn lines_about<'a>(&'a self, variable: &str) -> impl Iterator<Item = &'a RubricLine> {
+    pub fn lines_about<'a>(&'a self, variable: &str) -> impl Iterator<Item = &'a RubricItem> {
         self.rubric.iter().filter(move |line| line.variables.iter().any(|own| own == variable))
     }
 
@@ -69,8 +69,8 @@ impl Assignment {
 
     /// The lines that a mistake in a variable costs, where nothing else tells. Of one that is given several values, the only line that is
     /// about it may be about one of them.
-    pub fn lines_owning(&self, variable: &str) -> Vec<&RubricLine> {
-        let about: Vec<&RubricLine> = self.lines_about(variable).collect();
+    pub fn lines_owning(&self, variable: &str) -> Vec<&RubricItem> {
+        let about: Vec<&RubricItem> = self.lines_about(variable).collect();
         if about.len() == 1 && !self.is_of_one_line(variable) { Vec::new() } else { about }
     }
 
@@ -98,7 +98,7 @@ impl Assignment {
 
     /// Whether what a form replaces shows in the term that the line judges: before it, or in what becomes of it. What is no
     /// term of the colour is the mistake's own affair.
-    pub(crate) fn reaches(&self, form: &MistakeForm, line: &RubricLine) -> bool {
+    pub(crate) fn reaches(&self, form: &MistakeForm, line: &RubricItem) -> bool {
         let equation = &self.equation;
         let Some(judged) = equation.index(&line.judges) else { return true };
         if !equation.depends(equation.colour, judged) {

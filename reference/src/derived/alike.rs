@@ -2,7 +2,7 @@
 
 use super::Derived;
 use crate::Value;
-use crate::assignment::RubricLine;
+use crate::assignment::RubricItem;
 use crate::equation::EquationVariant;
 use crate::mistake::{Alternative, Condition, MistakeForm};
 use glam::DVec3;
@@ -96,7 +96,7 @@ impl Derived {
     fn is_another_constant<'a>(&'a self, variant: &mut EquationVariant<'a>, form: &'a MistakeForm) -> bool {
         let equation = &self.assignment.equation;
         let [replaced] = &form.overrides[..] else { return false };
-        let is_judged = |line: &RubricLine| equation.index(&line.judges) == Some(replaced.definition);
+        let is_judged = |line: &RubricItem| equation.index(&line.judges) == Some(replaced.definition);
         if self.assignment.rubric.iter().any(is_judged) {
             return false;
         }

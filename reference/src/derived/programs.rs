@@ -3,7 +3,7 @@
 use super::{Derived, RESULT, definition, wording};
 use crate::Assignment;
 use crate::accepted::{AcceptedAnswer, Computed};
-use crate::assignment::RubricLine;
+use crate::assignment::RubricItem;
 use crate::equation::Reads;
 use crate::fit::{Alternatives, Footprints, TOLERANCE, channel_agrees};
 use crate::interpreter::{DISCARD, Operator, ProgramSlip, outline, program_slips, slips_of_variables};
@@ -112,7 +112,7 @@ impl Derived {
 
     /// Whether a line is touched by a program: it is about what is given a value there, and is not where what it judges shows by
     /// itself, and is right there.
-    pub(super) fn program_touches(&self, found: &FoundMistake, line: &RubricLine) -> bool {
+    pub(super) fn program_touches(&self, found: &FoundMistake, line: &RubricItem) -> bool {
         let judges_position = self.assignment.judges_position(line);
         let probes = self.judging();
         let Some(shown) = self.shown(found, probes) else { return true };
@@ -135,7 +135,7 @@ impl Derived {
             own.is_none_or(|judged| !judged.is_right)
         };
         // What nothing shows by itself is wrong where it is made of what is wrong, and the others with it.
-        let is_hidden = |(number, own): (usize, &RubricLine)| {
+        let is_hidden = |(number, own): (usize, &RubricItem)| {
             self.assignment.judges_the_rest(own) && !judged.iter().any(|judged| judged.line == number)
         };
         if let Some((_, hidden)) = colours.clone().find(|own| is_hidden(*own)) {

@@ -3,7 +3,7 @@
 use super::{Derived, FIRST, RESULT, definition, read};
 use crate::Assignment;
 use crate::accepted::{AcceptedAnswer, Computed};
-use crate::assignment::{HandedIn, RubricLine};
+use crate::assignment::{HandedIn, RubricItem};
 use crate::feature::Feature;
 use crate::fit::{TOLERANCE, agrees};
 use crate::interpreter::{Program, SlipMark, Stage, outline, slips_marked, slips_written};
@@ -257,7 +257,7 @@ fn is_same(a: &[Computed], b: &[Computed], of: Shown) -> bool {
 
 impl Assignment {
     /// The only line in the text of whose feature a text stands, which is more than a name or a number.
-    pub fn only_line_with(&self, text: &str) -> Option<&RubricLine> {
+    pub fn only_line_with(&self, text: &str) -> Option<&RubricItem> {
         /// An operator and what stands on both of its sides.
         const LEAST_WORDS: usize = 3;
         let is_long = outline::words(text).len() >= LEAST_WORDS;

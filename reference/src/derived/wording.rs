@@ -1,7 +1,7 @@
 //! What is said of a derived mistake: made from its operator, and from what the lecture or the student calls the quantity.
 
 use super::{OperatorText, PREFIX, RESULT, operator_of};
-use crate::assignment::RubricLine;
+use crate::assignment::RubricItem;
 use crate::interpreter::{DefinitionSlip, Operator, ProgramSlip};
 use crate::manifest::LectureName;
 use crate::mistake::{Alternative, Condition, Mistake};
@@ -164,7 +164,7 @@ impl DefinitionName {
     /// that are about it.
     fn of_program(assignment: &Assignment, name: &str) -> Self {
         let own = assignment.names.get(name);
-        let about: Vec<&RubricLine> = assignment.lines_about(name).collect();
+        let about: Vec<&RubricItem> = assignment.lines_about(name).collect();
         let only = match (&about[..], &assignment.rubric[..]) {
             ([line], _) => Some(*line),
             (_, [line]) => Some(line),
@@ -216,11 +216,11 @@ fn of_line(assignment: &Assignment, definition: usize) -> Text {
     if let Some(line) = line_of(assignment, definition) {
         return part_called(line);
     }
-    let judged = |line: &&RubricLine| equation.index(&line.judges);
+    let judged = |line: &&RubricItem| equation.index(&line.judges);
     let mut lines = assignment.rubric.iter();
     // One line of several does not stand for the whole colour.
     let is_only = assignment.rubric.iter().filter(|line| !assignment.judges_position(line)).count() == 1;
-    let is_of_term = |line: &&RubricLine| {
+    let is_of_term = |line: &&RubricItem| {
         let is_part = |judged| is_only || judged != equation.colour;
         judged(line).is_some_and(|judged| is_part(judged) && equation.depends(judged, definition))
     };
@@ -242,19 +242,19 @@ fn own_name() -> Text {
 }
 
 /// The only line that judges a definition, or that is about it.
-fn line_of<'a>(assignment: &'a Assignment, definition: usize) -> Option<&'a RubricLine> {
-    let only = |lines: Vec<&'a RubricLine>| if let [line] = lines[..] { Some(line) } else { None };
+fn line_of<'a>(assignment: &'a Assignment, definition: usize) -> Option<&'a RubricItem> {
+    let only = |lines: Vec<&'a RubricItem>| if let [line] = lines[..] { Some(line) } else { None };
     let about = || assignment.lines_about(&assignment.equation.definitions[definition].name).collect();
     only(judging(assignment, definition).collect()).or_else(|| only(about()))
 }
 
 /// The lines that judge a definition, but for those that judge a feature of all that is seen, beside its terms.
-fn judging(assignment: &Assignment, definition: usize) -> impl Iterator<Item = &RubricLine> {
-    let judges_it = move |line: &&RubricLine| assignment.equation.index(&line.judges) == Some(definition);
+fn judging(assignment: &Assignment, definition: usize) -> impl Iterator<Item = &RubricItem> {
+    let judges_it = move |line: &&RubricItem| assignment.equation.index(&line.judges) == Some(definition);
     assignment.rubric.iter().filter(judges_it).filter(|line| !assignment.is_beside_terms(line))
 }
 
-fn part_called(line: &RubricLine) -> Text {
+fn part_called(line: &RubricItem) -> Text {
     Text { en: format!("the part “{}”", line.label.en), ja: format!("{}の部分", quoted(&line.label.ja)) }
 }
 

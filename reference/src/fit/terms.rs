@@ -3,7 +3,7 @@
 use super::agrees;
 use super::views::Views;
 use crate::Assignment;
-use crate::assignment::RubricLine;
+use crate::assignment::RubricItem;
 use crate::probes::ProbeSet;
 use glam::DVec3;
 
@@ -80,7 +80,7 @@ pub(super) fn judge(
 }
 
 /// The places where the line's term stands alone.
-fn alone(assignment: &Assignment, line: &RubricLine, probes: &ProbeSet) -> Vec<usize> {
+fn alone(assignment: &Assignment, line: &RubricItem, probes: &ProbeSet) -> Vec<usize> {
     let shows = |region: usize| assignment.regions.get(region).is_some_and(|region| line.alone_in.contains(&region.id));
     let here = |place: &usize| probes.probes[*place].region.is_some_and(shows);
     (0..probes.probes.len()).filter(here).collect()
@@ -88,7 +88,7 @@ fn alone(assignment: &Assignment, line: &RubricLine, probes: &ProbeSet) -> Vec<u
 
 /// The judgement of a wrong term: how far it is off where it stands alone, or anywhere if it is right there.
 fn wrong(
-    line: &RubricLine,
+    line: &RubricItem,
     probes: &ProbeSet,
     samples: &[DVec3],
     places: &[usize],
@@ -106,7 +106,7 @@ fn wrong(
 }
 
 fn judge_line(
-    line: &RubricLine,
+    line: &RubricItem,
     probes: &ProbeSet,
     samples: &[DVec3],
     places: &[usize],

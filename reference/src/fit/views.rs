@@ -8,7 +8,7 @@
 mod term;
 
 use crate::Assignment;
-use crate::assignment::RubricLine;
+use crate::assignment::RubricItem;
 use crate::probes::{ProbeSet, Region};
 use glam::DVec3;
 use term::{FAINT, TermValues};
@@ -64,10 +64,10 @@ impl<'a> Views<'a> {
         let outcomes: Vec<_> = probes.iter().map(|p| right.evaluate(probes.uniforms(p), &p.attributes)).collect();
         let lines = assignment.rubric.iter().enumerate();
         let colour = assignment.equation.colour();
-        let is_term = |line: &RubricLine| assignment.equation.index(&line.judges) != Some(colour);
+        let is_term = |line: &RubricItem| assignment.equation.index(&line.judges) != Some(colour);
         let lines = lines.filter(|(_, line)| !line.alone_in.is_empty() && is_term(line));
         // What a line's definition adds to the colour: itself, or what it is multiplied by on the way.
-        let values = |place: usize, line: &RubricLine| -> Option<Vec<DVec3>> {
+        let values = |place: usize, line: &RubricItem| -> Option<Vec<DVec3>> {
             let without = assignment.equation.right().with(assignment.terms[place].as_ref()?, f64::NAN);
             let adds: Vec<DVec3> = probes
                 .iter()

@@ -8,11 +8,12 @@ use std::collections::BTreeMap;
 /// Something to say of a right answer that would break elsewhere.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Advice {
+#[schemars(rename = "Advice")]
+pub struct AdviceEntry {
     /// Its id in reports.
     pub id: String,
     /// Where it breaks.
-    pub when: Circumstance,
+    pub when: CircumstanceEntry,
     /// The definitions that are likely to be at fault, the likeliest first.
     pub about: Vec<String>,
     /// Whether it is said only if one of these is what breaks.
@@ -25,7 +26,8 @@ pub struct Advice {
 /// What is different from a probe of the homework.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Circumstance {
+#[schemars(rename = "Circumstance")]
+pub struct CircumstanceEntry {
     /// Vertex attribute → what its components are multiplied by.
     #[serde(default)]
     pub scaled: BTreeMap<String, [f64; 4]>,

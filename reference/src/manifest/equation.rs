@@ -8,7 +8,8 @@ use toml::Spanned;
 /// A sum of terms, in LaTeX.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Equation {
+#[schemars(rename = "Equation")]
+pub struct EquationEntry {
     /// Where it stands.
     pub source: Text,
     /// The symbol of the sum.
@@ -18,16 +19,17 @@ pub struct Equation {
     #[schemars(with = "Option<String>")]
     pub sum: Option<Spanned<String>>,
     /// The summands, in order.
-    pub term: Vec<Term>,
+    pub term: Vec<TermEntry>,
     /// What the terms need.
     #[serde(default, rename = "where")]
-    pub given: Vec<SymbolMeaning>,
+    pub given: Vec<SymbolMeaningEntry>,
 }
 
 /// A summand.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Term {
+#[schemars(rename = "Term")]
+pub struct TermEntry {
     /// The rubric line that judges it.
     pub line: String,
     /// Its symbol in the sum.
@@ -41,7 +43,8 @@ pub struct Term {
 /// What a symbol in the terms stands for.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct SymbolMeaning {
+#[schemars(rename = "SymbolMeaning")]
+pub struct SymbolMeaningEntry {
     /// The symbol.
     #[schemars(with = "String")]
     pub symbol: Spanned<String>,

@@ -8,7 +8,8 @@ use std::collections::BTreeMap;
 /// An array of numbers in a program in C++.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct HostArray {
+#[schemars(rename = "HostArray")]
+pub struct HostArrayEntry {
     /// The name that it is handed out with.
     pub name: String,
     /// The name of the matrix that the program makes of it.
@@ -25,13 +26,14 @@ pub struct HostArray {
     pub written_in: Option<Text>,
     /// What is said of code beside the numbers, which is not judged.
     #[serde(default)]
-    pub notice: Vec<Notice>,
+    pub notice: Vec<NoticeEntry>,
 }
 
 /// Something to say of code that stands there, or does not.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Notice {
+#[schemars(rename = "Notice")]
+pub struct NoticeEntry {
     /// The code, blanks aside; one of these.
     pub code: Vec<String>,
     /// Whether it is said where none of it stands there.

@@ -9,7 +9,8 @@ use toml::{Spanned, Value};
 /// A vertex attribute: it is what `carries` or `values` says.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Input {
+#[schemars(rename = "Input")]
+pub struct InputEntry {
     /// Its name in the shader.
     #[schemars(with = "String")]
     pub name: Spanned<String>,
@@ -26,7 +27,8 @@ pub struct Input {
 /// A uniform, or all that lie in a structure, array or block: it is what `carries`, `value`, `is` or `texture` says.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Uniform {
+#[schemars(rename = "Uniform")]
+pub struct UniformEntry {
     /// Its name in the shader, or a path: `lights[1].colour`, `Block.member`.
     #[schemars(with = "String")]
     pub name: Spanned<String>,
@@ -52,7 +54,8 @@ pub struct Uniform {
 /// What a uniform may be that a student adds under a name of their own: it is what `carries`, `is` or `texture` says.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Free {
+#[schemars(rename = "Free")]
+pub struct FreeEntry {
     /// Its id in reports, among the advice.
     #[schemars(with = "String")]
     pub id: Spanned<String>,

@@ -10,7 +10,8 @@ use toml::Spanned;
 /// A known mistake.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Mistake {
+#[schemars(rename = "Mistake")]
+pub struct MistakeEntry {
     /// Its id in reports.
     pub id: String,
     /// The mistake in a few words.
@@ -25,7 +26,7 @@ pub struct Mistake {
     #[serde(default)]
     pub variants: Vec<Variant>,
     /// The free parameter of its forms or variants.
-    pub fit: Option<Fit>,
+    pub fit: Option<FitEntry>,
     /// Whether the handed-out file itself has the mistake.
     #[serde(default)]
     pub handed_out: bool,
@@ -49,13 +50,14 @@ pub struct Mistake {
     pub look: Text,
     /// Texts for files of which these would not be true.
     #[serde(default)]
-    pub instead: Vec<Alternative>,
+    pub instead: Vec<AlternativeEntry>,
 }
 
 /// Texts in place of a mistake's own.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Alternative {
+#[schemars(rename = "Alternative")]
+pub struct AlternativeEntry {
     /// When they are said: where all of it holds.
     pub when: When,
     /// What is seen in the picture.
@@ -66,7 +68,7 @@ pub struct Alternative {
     pub look: Option<Text>,
 }
 
-/// What must hold for an [`Alternative`].
+/// What must hold for an `Alternative`.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct When {
@@ -93,7 +95,8 @@ pub enum TermState {
 /// A free parameter.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Fit {
+#[schemars(rename = "Fit")]
+pub struct FitEntry {
     /// Its name.
     pub name: String,
     /// Least value.

@@ -8,7 +8,8 @@ use toml::Spanned;
 /// A pass that is drawn into a texture before each picture.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Pass {
+#[schemars(rename = "Pass")]
+pub struct PassEntry {
     /// The name of the texture that it draws.
     #[schemars(with = "String")]
     pub target: Spanned<String>,

@@ -22,7 +22,7 @@ pub struct Probes {
     /// Constant to whose power the cosine of that angle is raised.
     pub power: String,
     /// What the vertices of a group show, one after the other.
-    pub design: Vec<Design>,
+    pub design: Vec<DesignEntry>,
     /// The solution, changed: some fragments lie where one of these shows something else.
     #[schemars(with = "Vec<Variant>")]
     pub reveal: Vec<Spanned<Variant>>,
@@ -41,7 +41,8 @@ pub type Range = [f64; 2];
 /// Where a vertex lies and how its normal stands.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Design {
+#[schemars(rename = "Design")]
+pub struct DesignEntry {
     /// Angle at the eye between the axis and the direction from the vertex, in degrees.
     pub angle: Range,
     /// Distance from the eye.
@@ -58,7 +59,8 @@ pub struct Design {
 /// What a right answer shows at a probe.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Region {
+#[schemars(rename = "Region")]
+pub struct RegionEntry {
     /// Its name in this file.
     pub id: String,
     /// Where that is: a GLSL expression of type `bool` with the solution's definitions.

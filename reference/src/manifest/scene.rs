@@ -7,8 +7,8 @@ use toml::Spanned;
 
 /// One scene or several.
 #[derive(Debug, JsonSchema)]
-#[schemars(with = "crate::schema::OneOrMany<Scene>")]
-pub struct Scenes(pub Vec<Scene>);
+#[schemars(with = "crate::schema::OneOrMany<SceneEntry>")]
+pub struct Scenes(pub Vec<SceneEntry>);
 
 impl<'de> Deserialize<'de> for Scenes {
     fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
@@ -19,7 +19,7 @@ impl<'de> Deserialize<'de> for Scenes {
                 f.write_str("a table [scene], or several [[scene]]")
             }
             fn visit_map<A: serde::de::MapAccess<'de>>(self, map: A) -> Result<Scenes, A::Error> {
-                Scene::deserialize(serde::de::value::MapAccessDeserializer::new(map)).map(|one| Scenes(vec![one]))
+                SceneEntry::deserialize(serde::de::value::MapAccessDeserializer::new(map)).map(|one| Scenes(vec![one]))
             }
             fn visit_seq<A: serde::de::SeqAccess<'de>>(self, sequence: A) -> Result<Scenes, A::Error> {
                 Vec::deserialize(serde::de::value::SeqAccessDeserializer::new(sequence)).map(Scenes)
@@ -32,7 +32,8 @@ impl<'de> Deserialize<'de> for Scenes {
 /// Geometry, camera, animation. What a further scene does not say is as in the first one.
 #[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Scene {
+#[schemars(rename = "Scene")]
+pub struct SceneEntry {
     /// Vertices of a triangle.
     pub triangle: Option<[[f64; 3]; 3]>,
     /// Their normals.
@@ -52,11 +53,11 @@ pub struct Scene {
     /// Which triangles are left out.
     pub cull: Option<Cull>,
     /// What is drawn, one thing after the other.
-    pub draw: Option<Vec<Draw>>,
+    pub draw: Option<Vec<DrawEntry>>,
     /// Where the eye is: three numbers, or an expression.
-    pub eye: Option<Point>,
+    pub eye: Option<PointEntry>,
     /// What it looks at.
-    pub target: Option<Point>,
+    pub target: Option<PointEntry>,
     /// Which way is up.
     pub up: Option<[f64; 3]>,
     /// Vertical field of view.
@@ -78,7 +79,8 @@ pub struct Scene {
 /// One of several things that are drawn. What it does not say is as in its scene.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Draw {
+#[schemars(rename = "Draw")]
+pub struct DrawEntry {
     /// Its name, for passes that draw it.
     pub name: Option<String>,
     /// Its vertices and triangles.
@@ -122,8 +124,9 @@ impl Depth {
 
 /// A place: three numbers, or an expression.
 #[derive(Debug, Deserialize, JsonSchema)]
-#[serde(untagged)]
-pub enum Point {
+#[serde(untagged, expecting = "write a point, [x, y, z], or an expression of t between quotation marks")]
+#[schemars(rename = "Point")]
+pub enum PointEntry {
     /// It stays.
     Numbers([f64; 3]),
     /// It is computed.

@@ -10,7 +10,8 @@ use toml::Spanned;
 /// that a pass draws.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Texture {
+#[schemars(rename = "Texture")]
+pub struct TextureEntry {
     /// What uniforms call it.
     #[schemars(with = "String")]
     pub name: Spanned<String>,
@@ -21,9 +22,9 @@ pub struct Texture {
     /// A picture that is computed.
     pub generate: Option<Generator>,
     /// The pictures of an array of textures, from layer 0 on.
-    pub layers: Option<Vec<Picture>>,
+    pub layers: Option<Vec<PictureOrigin>>,
     /// The pictures of a texture of three dimensions, from the lowest third coordinate on.
-    pub slices: Option<Vec<Picture>>,
+    pub slices: Option<Vec<PictureOrigin>>,
     /// Width and height of a picture that is computed or drawn; one number for a texture of one dimension.
     pub size: Option<TextureSize>,
     /// How texels are kept.
@@ -48,7 +49,8 @@ pub struct Texture {
 /// One of several pictures: a PNG in the folder, or one that is computed.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(untagged, expecting = "write the name of a PNG, or a picture that is computed, such as { checker = {} }")]
-pub enum Picture {
+#[schemars(rename = "Picture")]
+pub enum PictureOrigin {
     /// The file.
     File(String),
     /// The computed one.

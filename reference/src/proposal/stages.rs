@@ -8,7 +8,7 @@ mod meaning;
 use super::FolderPlan;
 use super::shader_test::ShaderTest;
 use super::source::SolutionFile;
-use super::uniforms::{AttributeEntry, UniformEntry, usual_space};
+use super::uniforms::{ProposedAttribute, ProposedUniform, usual_space};
 use crate::assignment::AssignmentError;
 use crate::interpreter::{ProgramVariable, Scalar, Stage, Type};
 use crate::text::both;
@@ -106,14 +106,14 @@ fn vertex_of(plan: &mut FolderPlan, test: Option<&ShaderTest>) -> Result<(), Ass
     head.extend(feeds.uniforms.iter().map(|(_, kind, name)| format!("uniform {kind} {name};")));
     head.extend(declared(&inputs, "out", source.version_number()));
     let text = format!("{}\n\nvoid main()\n{{\n{}\n}}\n", head.join("\n"), lines.join("\n"));
-    let attributes = feeds.attributes.iter().map(|(carries, _)| AttributeEntry {
+    let attributes = feeds.attributes.iter().map(|(carries, _)| ProposedAttribute {
         name: attribute_name(carries).to_owned(),
         said: format!("carries = {carries:?}"),
     });
     let attributes: Vec<_> = attributes.collect();
     let new = feeds.uniforms.iter().filter(|(_, _, name)| !plan.uniforms.iter().any(|known| known.name == *name));
-    let new: Vec<UniformEntry> = new
-        .map(|(role, _, name)| UniformEntry {
+    let new: Vec<ProposedUniform> = new
+        .map(|(role, _, name)| ProposedUniform {
             name: name.clone(),
             lines: vec![format!("carries = {role:?}")],
             note: None,

@@ -17,12 +17,12 @@ use crate::text::both;
 use space::negated;
 pub(super) use space::usual_space;
 use std::collections::HashMap;
-pub(super) use textures::TextureEntry;
+pub(super) use textures::ProposedTexture;
 use tree::{ProposedValue, Tree, empty, has, insert, split, write};
 
 /// A vertex attribute of a stage.
 #[derive(Clone, Debug)]
-pub(super) struct AttributeEntry {
+pub(super) struct ProposedAttribute {
     pub name: String,
     /// `carries = "position"`, or `values = …`.
     pub said: String,
@@ -30,13 +30,13 @@ pub(super) struct AttributeEntry {
 
 /// An entry `[[uniform]]`.
 #[derive(Clone, Debug)]
-pub(super) struct UniformEntry {
+pub(super) struct ProposedUniform {
     pub name: String,
     /// `key = value`, one line each.
     pub lines: Vec<String>,
     /// What the name was taken for, where it was a guess.
     pub note: Option<(String, String)>,
-    pub texture: Option<TextureEntry>,
+    pub texture: Option<ProposedTexture>,
 }
 
 /// Feeds all uniforms and attributes of the solutions.

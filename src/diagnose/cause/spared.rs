@@ -7,7 +7,7 @@ use crate::diagnose::{Evidence, addends};
 use crate::render::Sample;
 use glam::DVec3;
 use reference::Assignment;
-use reference::assignment::RubricLine;
+use reference::assignment::RubricItem;
 use reference::derived::{definition, is_derived};
 use reference::equation::{DISCARDED, Reads};
 use reference::fit::TermJudgement;
@@ -100,19 +100,19 @@ pub fn beside(evidence: &Evidence<'_>, mut terms: Vec<TermJudgement>, findings: 
 /// a place is all that is seen, or in none that a line is about. A line that judges where all stands has what moves that, and what
 /// follows from it.
 pub fn elsewhere(assignment: &Assignment, findings: &[Finding]) -> Option<Vec<String>> {
-    let owners = |finding: &Finding| -> Option<Vec<&RubricLine>> {
+    let owners = |finding: &Finding| -> Option<Vec<&RubricItem>> {
         if !(finding.features.is_empty() || finding.is_whole || finding.touches_position) {
             return Some(assignment.rubric.iter().filter(|line| finding.features.contains(&line.id)).collect());
         }
         let name = finding.serves.as_deref().filter(|_| !finding.is_whole)?;
         let about = || assignment.lines_about(name);
-        let of_position: Vec<&RubricLine> =
+        let of_position: Vec<&RubricItem> =
             about().filter(|line| finding.touches_position && assignment.judges_position(line)).collect();
         let of_colour = || about().filter(|line| !assignment.judges_position(line)).collect();
         Some(if of_position.is_empty() { of_colour() } else { of_position }).filter(|lines| !lines.is_empty())
     };
-    let wrong: Vec<Vec<&RubricLine>> = findings.iter().map(owners).collect::<Option<_>>()?;
-    let is_wrong = |line: &RubricLine| wrong.iter().flatten().any(|own| own.id == line.id);
+    let wrong: Vec<Vec<&RubricItem>> = findings.iter().map(owners).collect::<Option<_>>()?;
+    let is_wrong = |line: &RubricItem| wrong.iter().flatten().any(|own| own.id == line.id);
     let right = assignment.rubric.iter().filter(|line| !line.variables.is_empty() && !is_wrong(line));
     (!wrong.is_empty()).then(|| right.map(|line| line.id.clone()).collect())
 }
@@ -127,8 +127,8 @@ pub fn by_text(evidence: &Evidence<'_>, found: &[FoundMistake]) -> Vec<String> {
     if !assignment.is_told_by_features() {
         return if is_of_several_terms(assignment, found) { right_where_they_show(evidence) } else { Vec::new() };
     }
-    let costs = |line: &&RubricLine| found.iter().any(|found| assignment.keeps(found, line) < 1.0);
-    let costly: Vec<&RubricLine> = assignment.rubric.iter().filter(costs).collect();
+    let costs = |line: &&RubricItem| found.iter().any(|found| assignment.keeps(found, line) < 1.0);
+    let costly: Vec<&RubricItem> = assignment.rubric.iter().filter(costs).collect();
     // What is within one feature is that line's, whatever else of it the text computes.
     if costly.iter().filter(|line| !assignment.judges_position(line)).count() < 2 {
         return Vec::new();
@@ -136,7 +136,7 @@ pub fn by_text(evidence: &Evidence<'_>, found: &[FoundMistake]) -> Vec<String> {
     let costly: Vec<&str> = costly.into_iter().map(|line| line.id.as_str()).collect();
     let within = if let [_] = found { inside::features_of_all(evidence) } else { Vec::new() };
     if !within.is_empty() && within.iter().all(|id| costly.contains(&id.as_str())) {
-        let is_other = |line: &&RubricLine| !within.contains(&line.id) && !assignment.judges_position(line);
+        let is_other = |line: &&RubricItem| !within.contains(&line.id) && !assignment.judges_position(line);
         return assignment.rubric.iter().filter(is_other).map(|line| line.id.clone()).collect();
     }
     let spared = computed_of(evidence, &costly);
@@ -157,15 +157,15 @@ pub fn is_of_several_terms(assignment: &Assignment, found: &[FoundMistake]) -> b
 /// are. None where these are all.
 fn right_where_they_show(evidence: &Evidence<'_>) -> Vec<String> {
     let assignment = evidence.assignment;
-    let terms: Vec<&RubricLine> = assignment.rubric.iter().filter(|line| !assignment.judges_position(line)).collect();
+    let terms: Vec<&RubricItem> = assignment.rubric.iter().filter(|line| !assignment.judges_position(line)).collect();
     let shows = shows_at(evidence);
-    let is_spared = |line: &&&RubricLine| matches!(shows(line), [true, false]);
+    let is_spared = |line: &&&RubricItem| matches!(shows(line), [true, false]);
     let spared: Vec<String> = terms.iter().filter(is_spared).map(|line| line.id.clone()).collect();
     if spared.len() == terms.len() { Vec::new() } else { spared }
 }
 
 /// Whether the term that a line judges shows at a probe that is right, and whether at one that is wrong.
-pub fn shows_at<'e>(evidence: &'e Evidence<'_>) -> impl Fn(&RubricLine) -> [bool; 2] + 'e {
+pub fn shows_at<'e>(evidence: &'e Evidence<'_>) -> impl Fn(&RubricItem) -> [bool; 2] + 'e {
     let Evidence { assignment, probes, samples, .. } = *evidence;
     let right = assignment.equation.right();
     let values: Vec<_> = probes.iter().map(|probe| right.evaluate(probes.uniforms(probe), &probe.attributes)).collect();
@@ -188,7 +188,7 @@ fn computed_of(evidence: &Evidence<'_>, wrong: &[&str]) -> Vec<String> {
     lines.extend(told_by_outputs(evidence).right.into_iter().map(|line| rubric[line].id.clone()));
     let is_turns = |number: usize| evidence.assignment.judges_turns(number);
     let is_value = |number: usize| evidence.assignment.judges_a_value(number) && !is_turns(number);
-    let is_wrong = |line: &RubricLine| wrong.contains(&line.id.as_str()) && !lines.contains(&line.id);
+    let is_wrong = |line: &RubricItem| wrong.contains(&line.id.as_str()) && !lines.contains(&line.id);
     // Where each wrong value is there in some turns, it is the turns that are wrong.
     if let Some(turns) = (0..rubric.len()).find(|number| is_turns(*number) && is_wrong(&rubric[*number])) {
         let some = inside::lines_of_some_turns(evidence);
@@ -198,7 +198,7 @@ fn computed_of(evidence: &Evidence<'_>, wrong: &[&str]) -> Vec<String> {
             return others.map(|(_, line)| line.id.clone()).collect();
         }
     }
-    let is_left = |(number, line): (usize, &RubricLine)| is_value(number) && is_wrong(line);
+    let is_left = |(number, line): (usize, &RubricItem)| is_value(number) && is_wrong(line);
     if rubric.iter().enumerate().any(is_left) {
         let ways = rubric.iter().enumerate().filter(|(number, _)| !is_value(*number));
         lines.extend(ways.map(|(_, line)| line.id.clone()));

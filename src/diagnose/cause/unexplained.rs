@@ -9,7 +9,7 @@ use crate::diagnose::listed::Listed;
 use crate::diagnose::locate::{self, TracedProbes};
 use crate::diagnose::{Evidence, addends, plain};
 use reference::Assignment;
-use reference::assignment::RubricLine;
+use reference::assignment::RubricItem;
 use reference::equation::Reads;
 use reference::fit::{
     Alternatives, FeatureDefect, FeatureExplanation, Fit, MOST_MISTAKES, TermJudgement, explain_derived, explain_parts,
@@ -65,7 +65,7 @@ pub(super) fn alone(
 /// The cause, or the one condition by which the parts are missing, where they show elsewhere as they should.
 fn unless_gated(evidence: &Evidence<'_>, cause: Cause) -> Cause {
     let Cause::Parts(parts) = &cause else { return cause };
-    let lines: Vec<&RubricLine> = parts.parts.iter().map(|(line, _)| &evidence.assignment.rubric[*line]).collect();
+    let lines: Vec<&RubricItem> = parts.parts.iter().map(|(line, _)| &evidence.assignment.rubric[*line]).collect();
     let shows = spared::shows_at(evidence);
     let condition =
         lines.iter().all(|line| shows(line)[0]).then(|| inside::only_change(evidence, RepairAim::Condition)).flatten();
@@ -153,10 +153,10 @@ fn beside_what_is_missing(
         return None;
     }
     let terms = judge_features(alternatives, samples, COLOUR_TOLERANCE);
-    let is_missing = |line: &&RubricLine| {
+    let is_missing = |line: &&RubricItem| {
         terms.iter().any(|term| term.line == line.id && term.judged > 0 && 10 * term.matched <= term.judged)
     };
-    let lost_by = |mistake: &Mistake| -> Vec<&RubricLine> {
+    let lost_by = |mistake: &Mistake| -> Vec<&RubricItem> {
         assignment.rubric.iter().filter(|line| mistake.keeps(&line.id) < 1.0).collect()
     };
     let alone = assignment.mistakes.iter().filter_map(|mistake| match lost_by(mistake)[..] {

@@ -4,7 +4,7 @@ use super::{Cause, NEARLY_RIGHT, PART_ABSENT, PART_MISSING, PART_SCALED, UNEXPLA
 use crate::diagnose::inside::Repaired;
 use crate::diagnose::{CONSTANTS_CHANGED, POSITION_CHANGED};
 use reference::Assignment;
-use reference::assignment::RubricLine;
+use reference::assignment::RubricItem;
 use reference::derived::{definition, is_derived};
 use reference::fit::{FeatureDefect, FeatureExplanation, TermJudgement};
 use reference::interpreter::Stage;
@@ -21,7 +21,7 @@ pub(super) const fn part_id(part: FeatureDefect) -> &'static str {
 }
 
 /// Fraction of the line's points that the mistake leaves in this answer.
-pub fn kept(assignment: &Assignment, line: &RubricLine, shape: bool, cause: &Cause, id: &str) -> f64 {
+pub fn kept(assignment: &Assignment, line: &RubricItem, shape: bool, cause: &Cause, id: &str) -> f64 {
     let is_touched = match (cause, id) {
         (_, POSITION_CHANGED) => !shape,
         (Cause::Unexplained { absent, .. }, PART_ABSENT) => absent.contains(&line.id),
@@ -73,13 +73,13 @@ fn of_colour(assignment: &Assignment, terms: &[TermJudgement], repaired: &Repair
     if !repaired.terms.is_empty() {
         return repaired.terms.clone();
     }
-    let is_wrong = |line: &&RubricLine| terms.iter().any(|term| term.line == line.id && !term.is_right());
+    let is_wrong = |line: &&RubricItem| terms.iter().any(|term| term.line == line.id && !term.is_right());
     // What cannot be judged by itself is not known to be right.
-    let is_right = |line: &&RubricLine| terms.iter().any(|term| term.line == line.id && term.is_right());
-    let is_colour = |line: &&RubricLine| !assignment.judges_position(line);
+    let is_right = |line: &&RubricItem| terms.iter().any(|term| term.line == line.id && term.is_right());
+    let is_colour = |line: &&RubricItem| !assignment.judges_position(line);
     let lines = || assignment.rubric.iter().filter(is_colour);
     // Of some lines those that are wrong by themselves, or all where none is.
-    let wrong_of = |lines: Vec<&RubricLine>| -> Vec<String> {
+    let wrong_of = |lines: Vec<&RubricItem>| -> Vec<String> {
         let is_any = lines.iter().any(is_wrong);
         lines.into_iter().filter(|line| !is_any || is_wrong(line)).map(|line| line.id.clone()).collect()
     };
@@ -91,9 +91,9 @@ fn of_colour(assignment: &Assignment, terms: &[TermJudgement], repaired: &Repair
     }
     // What is written over is lost, and what writes over it is right.
     if repaired.keeps_what_was_there() {
-        let is_known = |line: &&RubricLine| repaired.written_over.contains(&line.judges);
-        let is_wrong = |line: &&RubricLine| is_wrong(line) && !repaired.lines.contains(&line.id);
-        let lost: [Vec<&RubricLine>; 2] = [lines().filter(is_known).collect(), lines().filter(is_wrong).collect()];
+        let is_known = |line: &&RubricItem| repaired.written_over.contains(&line.judges);
+        let is_wrong = |line: &&RubricItem| is_wrong(line) && !repaired.lines.contains(&line.id);
+        let lost: [Vec<&RubricItem>; 2] = [lines().filter(is_known).collect(), lines().filter(is_wrong).collect()];
         if let Some(lost) = lost.into_iter().find(|lines| !lines.is_empty()) {
             return lost.into_iter().map(|line| line.id.clone()).collect();
         }
@@ -117,19 +117,19 @@ fn of_colour(assignment: &Assignment, terms: &[TermJudgement], repaired: &Repair
     }
     let about = name.into_iter().flat_map(|name| assignment.lines_owning(name));
     // Where all stands is seen by itself.
-    let about: Vec<&RubricLine> = about.filter(is_colour).collect();
+    let about: Vec<&RubricItem> = about.filter(is_colour).collect();
     // What nothing shows by itself is wrong where it is made of what is wrong, and the others with it.
     let is_hidden =
-        |line: &&RubricLine| assignment.judges_the_rest(line) && !terms.iter().any(|term| term.line == line.id);
+        |line: &&RubricItem| assignment.judges_the_rest(line) && !terms.iter().any(|term| term.line == line.id);
     if let Some(hidden) = about.iter().copied().find(is_hidden).filter(|_| !terms.is_empty()) {
         return vec![hidden.id.clone()];
     }
     if !about.is_empty() {
         return wrong_of(about);
     }
-    let is_spoilt = |line: &&RubricLine| repaired.touches.contains(&line.judges) && !assignment.is_beside_terms(line);
-    let is_all = |line: &&RubricLine| assignment.equation.index(&line.judges) == Some(assignment.equation.colour());
-    let choices: [Vec<&RubricLine>; 4] = [
+    let is_spoilt = |line: &&RubricItem| repaired.touches.contains(&line.judges) && !assignment.is_beside_terms(line);
+    let is_all = |line: &&RubricItem| assignment.equation.index(&line.judges) == Some(assignment.equation.colour());
+    let choices: [Vec<&RubricItem>; 4] = [
         // What it is in itself may be right where it shows alone.
         lines().filter(|line| !is_all(line) && name == Some(line.judges.as_str())).collect(),
         lines().filter(|line| !is_right(line) && is_spoilt(line)).collect(),
@@ -141,6 +141,6 @@ fn of_colour(assignment: &Assignment, terms: &[TermJudgement], repaired: &Repair
 }
 
 /// Whether the constant is one of the line's.
-pub fn belongs(assignment: &Assignment, constant: &str, line: &RubricLine) -> bool {
+pub fn belongs(assignment: &Assignment, constant: &str, line: &RubricItem) -> bool {
     assignment.constants.iter().any(|known| known.name == constant && known.line == line.id)
 }

@@ -7,7 +7,7 @@ use super::walk::{made_of, roots};
 use crate::diagnose::columns::{ScalarColumns, is_constant, is_equal};
 use crate::diagnose::trials::StageChanges;
 use reference::Assignment;
-use reference::assignment::RubricLine;
+use reference::assignment::RubricItem;
 use reference::feature::FeatureValue;
 use reference::interpreter::trace::Trace;
 use reference::traced::Bench;
@@ -75,7 +75,7 @@ impl Search<'_, '_> {
         }
         let ways = self.features.get_or_init(|| self.feature_ways());
         // Beside a feature of which no value is known, only the first value tells.
-        let is_known = |line: &RubricLine| ways.iter().any(|way| way.line == line.id);
+        let is_known = |line: &RubricItem| ways.iter().any(|way| way.line == line.id);
         let mut rubric = self.assignment.rubric.iter().enumerate().filter(|(number, line)| {
             self.assignment.features[*number].is_some() && !self.assignment.judges_position(line)
         });
@@ -111,7 +111,7 @@ impl Search<'_, '_> {
             let trace = bench.trace(&StageChanges::default())?.1[*stage as usize].take()?;
             Some(trace).filter(|trace| trace.events.len() <= MOST_EVENTS)
         };
-        let way = |line: &RubricLine, number: usize| {
+        let way = |line: &RubricItem, number: usize| {
             let [own, instead] = self.assignment.feature_values(number)?;
             let (with, without) = (traced(&own)?, traced(&instead)?);
             let at = |is_it: &dyn Fn(usize) -> bool| -> Vec<usize> {

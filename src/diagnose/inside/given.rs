@@ -5,7 +5,7 @@ use super::walk::roots;
 use crate::diagnose::Evidence;
 use crate::diagnose::columns::is_constant;
 use crate::diagnose::trials::{FUEL_OF_TRACE, StageChanges, chosen, place};
-use reference::assignment::RubricLine;
+use reference::assignment::RubricItem;
 use reference::feature::FeatureValue;
 use reference::interpreter::trace::{Event, Trace, What};
 use reference::interpreter::{Program, ProgramVariable, is_lookup, root};
@@ -59,7 +59,7 @@ pub(in crate::diagnose) fn absent_lines(evidence: &Evidence<'_>, is_right: &dyn 
         return Vec::new();
     }
     let lines = || assignment.rubric.iter().enumerate().filter(|(_, line)| !assignment.judges_position(line));
-    let needed: Vec<(&RubricLine, Option<Needed>)> =
+    let needed: Vec<(&RubricItem, Option<Needed>)> =
         lines().map(|(number, line)| (line, needed(evidence, &solution, number))).collect();
     let is_there = |own: &Needed| !own.names.is_disjoint(&seen);
     let is_absent = |own: &Needed| !own.names.is_empty() && !is_there(own);

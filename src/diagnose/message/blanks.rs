@@ -10,7 +10,7 @@ use crate::language::Text;
 use crate::report::FrameResult;
 use crate::source::Source;
 use crate::translate::NO_LINE;
-use reference::assignment::RubricLine;
+use reference::assignment::RubricItem;
 use reference::equation::DISCARDED;
 use reference::fit::{FeatureDefect, FeatureExplanation, Worst};
 use reference::interpreter::Stage;
@@ -34,7 +34,7 @@ impl<'f> Blanks<'f> {
     pub fn of(
         evidence: &'f Evidence<'_>,
         facts: &'f Facts,
-        line: &RubricLine,
+        line: &RubricItem,
         cause: &Cause,
         mistake: &Mistake,
     ) -> Self {

@@ -6,7 +6,7 @@ use crate::diagnose::columns::is_colour;
 use crate::diagnose::{Cause, Evidence, addends};
 use crate::language::Text;
 use glam::DVec3;
-use reference::assignment::RubricLine;
+use reference::assignment::RubricItem;
 use reference::derived::is_derived;
 use reference::fit::{Alternatives, Footprints, TermJudgement};
 use std::cell::OnceCell;
@@ -28,7 +28,7 @@ pub(super) struct KeptLines {
 
 impl KeptLines {
     /// What is said of a line.
-    pub fn of(&self, evidence: &Evidence<'_>, cause: &Cause, line: &RubricLine) -> Text {
+    pub fn of(&self, evidence: &Evidence<'_>, cause: &Cause, line: &RubricItem) -> Text {
         // The numbers that a program lists are known one by one.
         let is_listed = evidence.assignment.files.iter().any(|file| file.program.is_some());
         let is_right = matches!(cause, Cause::Right) || *self.is_right.get_or_init(|| all_colours_are_right(evidence));
@@ -58,7 +58,7 @@ impl KeptLines {
     }
 
     /// Whether what a line judges shows beside other lines everywhere, so that no probe says that it is right.
-    fn is_never_alone(&self, evidence: &Evidence<'_>, line: &RubricLine) -> bool {
+    fn is_never_alone(&self, evidence: &Evidence<'_>, line: &RubricItem) -> bool {
         let sought = || {
             let footprints = self.footprints(evidence);
             let judged = footprints.judged(&|_| true);
@@ -75,7 +75,7 @@ impl KeptLines {
     }
 
     /// Whether a colour is wrong where a line's feature shows, beside others or not.
-    fn is_wrong_where_shown(&self, evidence: &Evidence<'_>, line: &RubricLine) -> bool {
+    fn is_wrong_where_shown(&self, evidence: &Evidence<'_>, line: &RubricItem) -> bool {
         let Evidence { assignment, probes, .. } = *evidence;
         let own = assignment.rubric.iter().position(|own| own.id == line.id);
         let Some(own) = own.filter(|_| assignment.is_told_by_features()) else { return false };
@@ -86,7 +86,7 @@ impl KeptLines {
     }
 
     /// How far a line is right where it shows, wherever the mistake stands; none of one that is not seen by itself.
-    fn judgement(&self, evidence: &Evidence<'_>, line: &RubricLine) -> Option<&TermJudgement> {
+    fn judgement(&self, evidence: &Evidence<'_>, line: &RubricItem) -> Option<&TermJudgement> {
         let terms = self.terms.get_or_init(|| terms_alone(evidence));
         terms.iter().find(|term| term.line == line.id)
     }
@@ -123,7 +123,7 @@ fn elsewhere() -> Text {
 }
 
 /// Right answers get more than silence.
-fn agreement(evidence: &Evidence<'_>, line: &RubricLine) -> Text {
+fn agreement(evidence: &Evidence<'_>, line: &RubricItem) -> Text {
     let frames = evidence.frames.len();
     let probes = evidence.probes.probes.len();
     if let Some(right) = &line.right {

@@ -10,7 +10,7 @@ use crate::{Value, manifest};
 
 /// An entry whose names are known.
 pub(super) fn advice(
-    entry: manifest::Advice,
+    entry: manifest::AdviceEntry,
     interface: &Interface,
     constants: &[Constant],
     solution: &CheckedSolution<'_>,
@@ -26,7 +26,7 @@ pub(super) fn advice(
         );
         return Err(error(place, message));
     }
-    let manifest::Circumstance { scaled, stretched, constants: changed } = entry.when;
+    let manifest::CircumstanceEntry { scaled, stretched, constants: changed } = entry.when;
     if let Some(name) = scaled.keys().find(|name| !interface.inputs.iter().any(|input| input.name == **name)) {
         return Err(error(
             place,

@@ -12,7 +12,7 @@ use crate::text::both;
 type Defined = Vec<(Cell, Vec<f64>)>;
 
 /// The constants with the values that they have in the solution, which are those of the handed-out file.
-pub(super) fn constants(files: &[HandedIn], entries: Vec<manifest::Constant>) -> CheckResult<Vec<Constant>> {
+pub(super) fn constants(files: &[HandedIn], entries: Vec<manifest::ConstantEntry>) -> CheckResult<Vec<Constant>> {
     let names: Vec<&str> = entries.iter().map(|constant| constant.name.as_str()).collect();
     if names.is_empty() {
         return Ok(Vec::new());
@@ -25,8 +25,8 @@ pub(super) fn constants(files: &[HandedIn], entries: Vec<manifest::Constant>) ->
         Ok((defined(file, &solution.name, &solution.text)?, defined(file, starter_name, starter)?))
     };
     let all = files.iter().map(in_file).collect::<CheckResult<Vec<(Defined, Defined)>>>()?;
-    let constant = |entry: manifest::Constant| {
-        let manifest::Constant { name, means, line } = entry;
+    let constant = |entry: manifest::ConstantEntry| {
+        let manifest::ConstantEntry { name, means, line } = entry;
         let is_it = |(cell, _): &&(Cell, Vec<f64>)| cell.name == name;
         let missing = || {
             let shown = files.iter().map(|file| file.solution.name.as_str()).collect::<Vec<_>>();

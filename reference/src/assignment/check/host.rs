@@ -38,7 +38,7 @@ pub(super) fn program(
     Ok((shader, Some(HostProgram { array, solution: written.text, starter })))
 }
 
-fn notice(entry: &manifest::Notice) -> Notice {
+fn notice(entry: &manifest::NoticeEntry) -> Notice {
     Notice { code: entry.code.clone(), is_absent: entry.absent, message: entry.message.clone() }
 }
 

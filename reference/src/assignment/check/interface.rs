@@ -98,7 +98,7 @@ pub(super) fn free(
             return Err(reader.wrong(at, &place, message));
         }
         let kind = reader.named(&entry.kind, at, &place)?;
-        let uniform = manifest::Uniform {
+        let uniform = manifest::UniformEntry {
             name: entry.id.clone(),
             kind: None,
             carries: entry.carries,
@@ -142,7 +142,7 @@ impl InterfaceReader<'_> {
         })
     }
 
-    fn input(&self, entry: &manifest::Input) -> CheckResult<Input> {
+    fn input(&self, entry: &manifest::InputEntry) -> CheckResult<Input> {
         let (name, at) = (entry.name.get_ref(), entry.name.span().start);
         let place = format!("input `{name}`");
         let vertex = self.programs.iter().find(|program| program.stage == Stage::Vertex);

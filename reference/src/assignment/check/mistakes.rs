@@ -7,7 +7,7 @@ use super::variants::Variants;
 use crate::Text;
 use crate::assignment::{Constant, error};
 use crate::interpreter::Type;
-use crate::manifest::{self, RubricLine, TermState};
+use crate::manifest::{self, RubricItem, TermState};
 use crate::mistake::{Alternative, Condition, DefinitionOverride, FreeParameter, Mistake, MistakeForm};
 use crate::text::both;
 use crate::together::has_name;
@@ -17,8 +17,8 @@ use toml::Spanned;
 
 /// The folder's mistakes, and those of any homework.
 pub(super) fn all(
-    entries: Vec<manifest::Mistake>,
-    rubric: &[RubricLine],
+    entries: Vec<manifest::MistakeEntry>,
+    rubric: &[RubricItem],
     solution: &mut CheckedSolution<'_>,
     constants: &[Constant],
     variants: &Variants<'_>,
@@ -55,16 +55,16 @@ pub(super) fn all(
 }
 
 /// What goes wrong in any homework.
-fn general(rubric: &[RubricLine], solution: &CheckedSolution<'_>) -> CheckResult<Vec<manifest::Mistake>> {
+fn general(rubric: &[RubricItem], solution: &CheckedSolution<'_>) -> CheckResult<Vec<manifest::MistakeEntry>> {
     /// The file, where `keeps` speaks of kinds of lines.
     #[derive(Deserialize)]
     struct General {
-        mistake: Vec<manifest::Mistake>,
+        mistake: Vec<manifest::MistakeEntry>,
     }
     let read = toml::from_str(include_str!("general.toml"));
     let General { mut mistake } = read.map_err(|e| error("general.toml", Text::verbatim(e.to_string())))?;
     for mistake in &mut mistake {
-        let kept = |line: &RubricLine| {
+        let kept = |line: &RubricItem| {
             let kind = if solution.is_position(&line.judges) { "position" } else { "colour" };
             mistake.keeps.get(kind).map(|kept| (line.id.clone(), *kept))
         };
@@ -75,7 +75,7 @@ fn general(rubric: &[RubricLine], solution: &CheckedSolution<'_>) -> CheckResult
 
 /// A mistake whose forms fit the solution. `place_at`: where a byte of the manifest stands.
 fn mistake(
-    entry: manifest::Mistake,
+    entry: manifest::MistakeEntry,
     solution: &mut CheckedSolution<'_>,
     lines: &HashSet<String>,
     constants: &[Constant],
@@ -193,7 +193,7 @@ fn title(title: &Text, place: &str) -> CheckResult<()> {
     Ok(())
 }
 
-fn alternative(entry: manifest::Alternative, forms: usize, place: &str) -> CheckResult<Alternative> {
+fn alternative(entry: manifest::AlternativeEntry, forms: usize, place: &str) -> CheckResult<Alternative> {
     let manifest::When { forms: of_forms, lacks, term } = entry.when;
     if let Some(form) = of_forms.iter().find(|form| **form >= forms) {
         return Err(error(

@@ -18,7 +18,7 @@ pub(super) fn pass(
     read: &dyn Fn(&str) -> CheckResult<String>,
     place_at: &dyn Fn(usize) -> String,
 ) -> CheckResult<()> {
-    let is_depth = |texture: &&crate::manifest::Texture| texture.format.is_some_and(Format::is_depth);
+    let is_depth = |texture: &&crate::manifest::TextureEntry| texture.format.is_some_and(Format::is_depth);
     let target = m.texture.iter().find(is_depth);
     let entry = match (&m.pass[..], target) {
         ([], None) => return Ok(()),

@@ -5,7 +5,7 @@ use super::{CheckResult, listed};
 use crate::assignment::{Assignment, Attribute, Constant, Input, Stream, error};
 use crate::equation::{Definition, Reads};
 use crate::interpreter::Type;
-use crate::manifest::{self, RubricLine};
+use crate::manifest::{self, RubricItem};
 use crate::probes::{Aim, Design, Normal, Probing, Region};
 use crate::text::both;
 use std::collections::HashSet;
@@ -56,7 +56,7 @@ fn aim(entry: &manifest::Probes, constants: &[Constant], solution: &CheckedSolut
     Ok(Aim { axis, lobe, power, designs: designs.collect::<CheckResult<_>>()? })
 }
 
-fn design(entry: &manifest::Design, number: usize, solution: &CheckedSolution<'_>) -> CheckResult<Design> {
+fn design(entry: &manifest::DesignEntry, number: usize, solution: &CheckedSolution<'_>) -> CheckResult<Design> {
     let place = format!("probes, design {number}");
     let range = |range: manifest::Range, lowest: f64, highest: f64| -> CheckResult<RangeInclusive<f64>> {
         let [from, to] = range;
@@ -121,9 +121,9 @@ pub(super) fn lobe_is_known(assignment: &Assignment) -> CheckResult<()> {
 
 /// The regions whose conditions can be computed, and which the rubric knows.
 pub(super) fn regions(
-    entries: Vec<manifest::Region>,
+    entries: Vec<manifest::RegionEntry>,
     solution: &mut CheckedSolution<'_>,
-    rubric: &[RubricLine],
+    rubric: &[RubricItem],
     place_at: &dyn Fn(usize) -> String,
 ) -> CheckResult<Vec<Region>> {
     let mut ids = HashSet::new();

@@ -13,7 +13,7 @@ const MAX_LINES: usize = 64;
 
 /// The names of the lines; each is completed by what it judges.
 pub(super) fn rubric(
-    lines: &mut [manifest::RubricLine],
+    lines: &mut [manifest::RubricItem],
     solution: &CheckedSolution<'_>,
     texts: &[&str],
 ) -> CheckResult<HashSet<String>> {

@@ -122,22 +122,22 @@ fn drawn(scene: &Scene) -> usize {
 
 /// A scene beside the first one, which says what it does not.
 struct SceneReader<'a> {
-    own: &'a manifest::Scene,
-    first: &'a manifest::Scene,
+    own: &'a manifest::SceneEntry,
+    first: &'a manifest::SceneEntry,
     meshes: &'a Meshes<'a>,
     place_at: &'a dyn Fn(usize) -> String,
 }
 
 impl<'a> SceneReader<'a> {
-    fn get<T>(&self, key: &str, of: impl Fn(&'a manifest::Scene) -> Option<T>) -> CheckResult<T> {
+    fn get<T>(&self, key: &str, of: impl Fn(&'a manifest::SceneEntry) -> Option<T>) -> CheckResult<T> {
         of(self.own).or_else(|| of(self.first)).ok_or_else(|| missing(key))
     }
 
     fn view(&self) -> CheckResult<View> {
-        let point = |key, of: fn(&'a manifest::Scene) -> Option<&'a manifest::Point>| -> CheckResult<Point> {
+        let point = |key, of: fn(&'a manifest::SceneEntry) -> Option<&'a manifest::PointEntry>| -> CheckResult<Point> {
             match self.get(key, of)? {
-                manifest::Point::Numbers(point) => Ok(Point::Fixed(DVec3::from_array(*point))),
-                manifest::Point::Expression(text) => {
+                manifest::PointEntry::Numbers(point) => Ok(Point::Fixed(DVec3::from_array(*point))),
+                manifest::PointEntry::Expression(text) => {
                     let expression = FeedExpression::compile(text, &Type::vector(3));
                     let wrong = |what: &Text| {
                         let message = both(
@@ -165,7 +165,8 @@ impl<'a> SceneReader<'a> {
     }
 
     fn draws(&self) -> CheckResult<Vec<Draw>> {
-        let shows = |scene: &manifest::Scene| scene.draw.is_some() || scene.mesh.is_some() || scene.triangle.is_some();
+        let shows =
+            |scene: &manifest::SceneEntry| scene.draw.is_some() || scene.mesh.is_some() || scene.triangle.is_some();
         let scene = if shows(self.own) { self.own } else { self.first };
         let said = [scene.draw.is_some(), scene.mesh.is_some(), scene.triangle.is_some()];
         match said.iter().filter(|said| **said).count() {
@@ -216,7 +217,7 @@ impl<'a> SceneReader<'a> {
 
     /// What a scene says of its only draw.
     fn with(&self, mesh: Arc<Mesh>, depth: Option<Depth>) -> CheckResult<Draw> {
-        let said = |scene: &manifest::Scene| scene.depth_test;
+        let said = |scene: &manifest::SceneEntry| scene.depth_test;
         let depth = said(self.own).or_else(|| said(self.first)).or(depth);
         Ok(Draw {
             name: None,
@@ -228,7 +229,7 @@ impl<'a> SceneReader<'a> {
         })
     }
 
-    fn draw(&self, draw: &manifest::Draw) -> CheckResult<Draw> {
+    fn draw(&self, draw: &manifest::DrawEntry) -> CheckResult<Draw> {
         let like = self.with(self.meshes.mesh(&draw.mesh)?, Some(Depth::Less))?;
         Ok(Draw {
             name: draw.name.clone(),

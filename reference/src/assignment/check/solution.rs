@@ -41,7 +41,7 @@ impl<'a> CheckedSolution<'a> {
     pub(super) fn read(
         files: &'a [HandedIn],
         pipeline: &Pipeline,
-        constants: &[manifest::Constant],
+        constants: &[manifest::ConstantEntry],
     ) -> CheckResult<Self> {
         let names: Vec<&str> = constants.iter().map(|constant| constant.name.as_str()).collect();
         let why = match files {

@@ -27,7 +27,7 @@ const FLOATS: usize = 4;
 /// The textures, in the order of the manifest. Depths that a pass draws are those of probes there; those of so many `pictures` stand
 /// behind all others. `place_at`: where a byte of the manifest stands.
 pub(super) fn textures(
-    entries: &[manifest::Texture],
+    entries: &[manifest::TextureEntry],
     pictures: usize,
     folder: &Folder,
     place_at: &dyn Fn(usize) -> String,
@@ -77,13 +77,13 @@ pub(super) fn textures(
 }
 
 /// The entry of a texture.
-pub(super) fn place(entry: &manifest::Texture, place_at: &dyn Fn(usize) -> String) -> String {
+pub(super) fn place(entry: &manifest::TextureEntry, place_at: &dyn Fn(usize) -> String) -> String {
     let line = place_at(entry.name.span().start);
     format!("{line}, texture `{}`", entry.name.get_ref())
 }
 
 struct TextureReader<'a> {
-    entry: &'a manifest::Texture,
+    entry: &'a manifest::TextureEntry,
     folder: &'a Folder,
     place_at: &'a dyn Fn(usize) -> String,
 }

@@ -13,7 +13,7 @@ use toml::Spanned;
 
 /// The equation, its formulas made from LaTeX.
 pub(super) fn typeset(
-    entry: manifest::Equation,
+    entry: manifest::EquationEntry,
     lines: &HashSet<String>,
     place_at: &dyn Fn(usize) -> String,
 ) -> CheckResult<Typeset> {
@@ -32,7 +32,7 @@ pub(super) fn typeset(
         let inside = made.mathml.strip_prefix("<math>").and_then(|rest| rest.strip_suffix("</math>"));
         Ok(inside.unwrap_or(&made.mathml).to_owned())
     };
-    let term = |term: manifest::Term| {
+    let term = |term: manifest::TermEntry| {
         known_line(lines, &term.line, "equation")?;
         Ok(Term { symbol: formula(&term.symbol)?, value: formula(&term.value)?, line: term.line })
     };
@@ -44,7 +44,7 @@ pub(super) fn typeset(
             plus.skip(1).collect()
         }
     };
-    let given = |given: manifest::SymbolMeaning| {
+    let given = |given: manifest::SymbolMeaningEntry| {
         Ok(SymbolMeaning { symbol: formula(&given.symbol)?, value: formula(&given.value)?, source: given.source })
     };
     Ok(Typeset {

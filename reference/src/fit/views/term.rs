@@ -1,6 +1,6 @@
 //! A term by itself: its right values, and what is known of them.
 
-use crate::assignment::RubricLine;
+use crate::assignment::RubricItem;
 use glam::DVec3;
 
 /// A right term below this does not show: far under half a step of 8 bits, also when its colour is wrong.
@@ -10,7 +10,7 @@ pub(super) const FAINT: f64 = 1e-6;
 pub(in crate::fit) struct TermValues<'a> {
     /// Its line's place in the rubric.
     pub(super) place: usize,
-    pub line: &'a RubricLine,
+    pub line: &'a RubricItem,
     pub(super) values: Vec<DVec3>,
     /// The unit vector of its colour.
     pub(super) direction: DVec3,
@@ -20,7 +20,7 @@ pub(in crate::fit) struct TermValues<'a> {
 }
 
 impl<'a> TermValues<'a> {
-    pub(super) fn new(place: usize, line: &'a RubricLine, values: Vec<DVec3>) -> Self {
+    pub(super) fn new(place: usize, line: &'a RubricItem, values: Vec<DVec3>) -> Self {
         let strongest = values.iter().copied().max_by(|a, b| a.length_squared().total_cmp(&b.length_squared()));
         let strongest = strongest.unwrap_or(DVec3::ZERO);
         let is_constant = values.iter().all(|value| (*value - strongest).abs().max_element() < FAINT);

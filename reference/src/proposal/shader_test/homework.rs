@@ -3,7 +3,7 @@
 use super::drawing::{self, TestDraw};
 use super::{ShaderTest, VERTEX};
 use crate::interpreter::Type;
-use crate::proposal::uniforms::{AttributeEntry, numbers};
+use crate::proposal::uniforms::{ProposedAttribute, numbers};
 
 impl ShaderTest {
     /// Whether the vertex stage only hands on positions.
@@ -12,10 +12,10 @@ impl ShaderTest {
     }
 
     /// The attribute of such a stage.
-    pub fn passthrough(&self) -> Vec<AttributeEntry> {
+    pub fn passthrough(&self) -> Vec<ProposedAttribute> {
         let listed = self.attribute(VERTEX, &Type::VEC4).map(|values| format!("values = {values}"));
         let said = listed.unwrap_or_else(|| "carries = \"position\"".to_owned());
-        vec![AttributeEntry { name: VERTEX.to_owned(), said }]
+        vec![ProposedAttribute { name: VERTEX.to_owned(), said }]
     }
 
     /// The values of an attribute that the test lists, as TOML.

@@ -4,12 +4,12 @@ use super::meaning::{InputMeaning, KnownPoint};
 use crate::interpreter::Type;
 use crate::proposal::names::Space;
 use crate::proposal::source::SolutionFile;
-use crate::proposal::uniforms::UniformEntry;
+use crate::proposal::uniforms::ProposedUniform;
 
 /// The names of what the vertex stage reads, none of which the solution uses for something else.
 pub(super) struct Feeds<'a> {
     pub source: &'a SolutionFile,
-    pub known: &'a [UniformEntry],
+    pub known: &'a [ProposedUniform],
     pub uniforms: Vec<(&'static str, &'static str, String)>,
     pub attributes: Vec<(&'static str, &'static str)>,
 }

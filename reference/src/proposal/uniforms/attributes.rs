@@ -1,6 +1,6 @@
 //! What vertex attributes carry.
 
-use super::{AttributeEntry, numbers};
+use super::{ProposedAttribute, numbers};
 use crate::assignment::AssignmentError;
 use crate::interpreter::{Scalar, Type};
 use crate::proposal::FolderPlan;
@@ -14,7 +14,7 @@ pub(super) fn attributes(
     plan: &mut FolderPlan,
     at: usize,
     test: Option<&ShaderTest>,
-) -> Result<Vec<AttributeEntry>, AssignmentError> {
+) -> Result<Vec<ProposedAttribute>, AssignmentError> {
     let source = &plan.sources[at];
     let own = source.program.inputs().iter().filter(|input| !input.name.starts_with("gl_"));
     let own: Vec<(String, Type)> = own.map(|input| (input.name.clone(), input.kind.clone())).collect();
@@ -28,7 +28,7 @@ pub(super) fn attributes(
     let mut attributes = Vec::new();
     for (name, kind) in &own {
         if let Some(values) = listed(name, kind) {
-            attributes.push(AttributeEntry { name: name.clone(), said: format!("values = {values}") });
+            attributes.push(ProposedAttribute { name: name.clone(), said: format!("values = {values}") });
             continue;
         }
         let known = names::attribute(&NameWords::of(name), kind);
@@ -61,7 +61,7 @@ pub(super) fn attributes(
                 format!("values = [{}]", values.collect::<Vec<_>>().join(", "))
             }
         };
-        attributes.push(AttributeEntry { name: name.clone(), said });
+        attributes.push(ProposedAttribute { name: name.clone(), said });
     }
     Ok(attributes)
 }

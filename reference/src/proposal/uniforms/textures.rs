@@ -9,7 +9,7 @@ use std::collections::HashMap;
 
 /// An entry `[[texture]]`.
 #[derive(Clone, Debug, PartialEq)]
-pub(in crate::proposal) struct TextureEntry {
+pub(in crate::proposal) struct ProposedTexture {
     pub name: String,
     /// `key = value`, one line each.
     pub lines: Vec<String>,
@@ -125,7 +125,7 @@ fn listed(key: &str, pictures: &[&str]) -> String {
 
 impl ProposedTextures {
     /// A texture for the sampler at a path; none where a homework has none for it.
-    pub fn of(&mut self, path: &str, sampler: Sampler) -> Option<TextureEntry> {
+    pub fn of(&mut self, path: &str, sampler: Sampler) -> Option<ProposedTexture> {
         let is_whole = sampler.texel != Scalar::Float;
         if sampler.shadow || is_whole && sampler.dimension == Dimension::Cube {
             return None;
@@ -163,7 +163,7 @@ impl ProposedTextures {
             let format = if sampler.texel == Scalar::Int { "rgba32i" } else { "rgba32ui" };
             lines.push(format!("format = {format:?} # whole numbers"));
         }
-        Some(TextureEntry { name: name(path), lines, what })
+        Some(ProposedTexture { name: name(path), lines, what })
     }
 
     /// A picture.

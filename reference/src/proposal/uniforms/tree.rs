@@ -1,13 +1,13 @@
 //! The parts of a uniform, each with its source, and the entries that say so.
 
-use super::{TextureEntry, UniformEntry};
+use super::{ProposedTexture, ProposedUniform};
 
 /// Where the value of one scalar, vector, matrix or sampler comes from.
 #[derive(Clone, Debug)]
 pub(super) enum ProposedValue {
     Line(String),
     Value { value: String, probe: Option<String>, what: (&'static str, &'static str) },
-    Texture(TextureEntry),
+    Texture(ProposedTexture),
 }
 
 /// The parts of a uniform.
@@ -77,8 +77,8 @@ pub(super) fn has(tree: &Tree, path: &str) -> bool {
 }
 
 /// The entries of a uniform: one where all its parts have values, or one for each part.
-pub(super) fn write(name: &str, tree: &Tree, entries: &mut Vec<UniformEntry>) {
-    let entry = |lines: Vec<String>, note, texture| UniformEntry { name: name.to_owned(), lines, note, texture };
+pub(super) fn write(name: &str, tree: &Tree, entries: &mut Vec<ProposedUniform>) {
+    let entry = |lines: Vec<String>, note, texture| ProposedUniform { name: name.to_owned(), lines, note, texture };
     let note = |what: (&str, &str)| Some((what.0.to_owned(), what.1.to_owned()));
     match tree {
         Tree::Leaf(ProposedValue::Line(line)) => {

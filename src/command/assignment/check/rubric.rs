@@ -6,7 +6,7 @@ use crate::fault::Fault;
 use crate::language::Text;
 use crate::pictures::picture;
 use reference::Assignment;
-use reference::assignment::{MANIFEST, RubricLine};
+use reference::assignment::{MANIFEST, RubricItem};
 use reference::fit::{self, Footprints, JudgedLine};
 use reference::interpreter::Stage;
 use reference::probes::ProbeSet;
@@ -81,7 +81,7 @@ fn judged_at(judged: &[JudgedLine], line: usize) -> usize {
 }
 
 /// What there is to say of a line whose feature shows beside others everywhere, as where all that is seen is tone-mapped.
-fn beside_others(line: &RubricLine, place: &Text) -> Text {
+fn beside_others(line: &RubricItem, place: &Text) -> Text {
     let id = &line.id;
     let shown = Text::new(
         format!(

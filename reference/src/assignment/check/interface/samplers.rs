@@ -16,7 +16,7 @@ use crate::text::both;
 #[derive(Clone, Copy)]
 pub(super) struct FolderSamplers<'a> {
     /// What the manifest says of them.
-    pub entries: &'a [manifest::Texture],
+    pub entries: &'a [manifest::TextureEntry],
     /// Themselves, in the same order.
     pub textures: &'a [Texture],
     pub place_at: &'a dyn Fn(usize) -> String,
@@ -24,7 +24,7 @@ pub(super) struct FolderSamplers<'a> {
 
 impl FolderSamplers<'_> {
     /// The texture that a uniform's sampler reads. `rest`: the path from the entry's name to the sampler.
-    pub fn feed(&self, entry: &manifest::Uniform, rest: &str, sampler: Sampler) -> Result<Feed, Text> {
+    pub fn feed(&self, entry: &manifest::UniformEntry, rest: &str, sampler: Sampler) -> Result<Feed, Text> {
         let kind = Type::Sampler(sampler);
         let alone = entry.texture.as_ref().filter(|_| {
             entry.carries.is_none() && entry.value.is_none() && entry.is.is_none() && entry.probe.is_none()

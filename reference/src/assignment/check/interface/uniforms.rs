@@ -24,7 +24,7 @@ fn of_key(key: &str, leaf: &str, kind: &Type, what: &Text) -> Text {
 
 impl InterfaceReader<'_> {
     /// The uniforms of an entry.
-    pub(super) fn uniforms(&self, entry: &manifest::Uniform, all: &mut Vec<Uniform>) -> CheckResult<()> {
+    pub(super) fn uniforms(&self, entry: &manifest::UniformEntry, all: &mut Vec<Uniform>) -> CheckResult<()> {
         let (path, at) = (entry.name.get_ref(), entry.name.span().start);
         let place = format!("uniform `{path}`");
         let leaves = self.leaves(entry, &place)?;
@@ -73,7 +73,7 @@ impl InterfaceReader<'_> {
     /// Where the value of `leaf` comes from, which lies at `rest` in what the entry names.
     pub(super) fn feed(
         &self,
-        entry: &manifest::Uniform,
+        entry: &manifest::UniformEntry,
         rest: &str,
         leaf: &str,
         kind: &Type,
@@ -140,7 +140,7 @@ impl InterfaceReader<'_> {
     }
 
     /// The uniforms that an entry speaks of, each with its type.
-    fn leaves(&self, entry: &manifest::Uniform, place: &str) -> CheckResult<Vec<(String, Type)>> {
+    fn leaves(&self, entry: &manifest::UniformEntry, place: &str) -> CheckResult<Vec<(String, Type)>> {
         let path = entry.name.get_ref();
         let mut leaves: Vec<(&ProgramVariable, &str)> = Vec::new();
         for Compiled { name, program, .. } in self.programs {

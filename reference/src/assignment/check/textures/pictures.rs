@@ -4,7 +4,7 @@ use super::{FLOATS, LONGEST_SIDE, MOST_TEXELS, TextureReader, place};
 use crate::assignment::check::CheckResult;
 use crate::assignment::{AssignmentError, error};
 use crate::interpreter::{Dimension, Level, Scalar, Texels, Texture};
-use crate::manifest::{Format, Picture, TextureSize};
+use crate::manifest::{Format, PictureOrigin, TextureSize};
 use crate::texture::{BrokenPicture, Generator, TexturePicture, read};
 
 /// More layers or slices of a texture are refused.
@@ -89,7 +89,7 @@ impl TextureReader<'_> {
     /// Pictures of one size, from files or computed.
     pub(super) fn several(
         &self,
-        pictures: &[Picture],
+        pictures: &[PictureOrigin],
         shape: TextureShape,
         room: usize,
     ) -> CheckResult<TexturePictures> {
@@ -99,7 +99,7 @@ impl TextureReader<'_> {
                 format!("`layers` と `slices` には 1 から {MOST_PICTURES} 枚の画像を書いてください"),
             ));
         }
-        let is_file = |picture: &Picture| matches!(picture, Picture::File(_));
+        let is_file = |picture: &PictureOrigin| matches!(picture, PictureOrigin::File(_));
         if self.entry.flip.is_some() && !pictures.iter().any(is_file) {
             return Err(self.flip_of_none());
         }
@@ -108,20 +108,20 @@ impl TextureReader<'_> {
         let mut size = None;
         for picture in pictures {
             let own = match picture {
-                Picture::File(name) => {
+                PictureOrigin::File(name) => {
                     let picture = self.picture(name, each / self.room_of_texel())?;
                     let picture = if self.entry.flip.unwrap_or(true) { picture.flipped() } else { picture };
                     let number = |byte| if self.is_whole() { f64::from(byte) } else { f64::from(byte) / 255.0 };
                     let texels = picture.texels.into_iter().map(|texel| texel.map(number)).collect();
                     TexturePicture { width: picture.width, height: picture.height, texels }
                 }
-                Picture::Generated(generator) if generator.is_cube() => {
+                PictureOrigin::Generated(generator) if generator.is_cube() => {
                     return Err(self.wrong(
                         "a sky is a cube, and no picture among others: write it as `generate`",
                         "`sky` はキューブマップなので、`layers` や `slices` には使えません。`generate` に書いてください",
                     ));
                 }
-                Picture::Generated(generator) => {
+                PictureOrigin::Generated(generator) => {
                     self.computed(generator, self.small(self.flat_size()?, 1, each)?)?.remove(0)
                 }
             };
