@@ -7,7 +7,7 @@ mod worth;
 
 use super::constants::ChangedConstant;
 use super::inside::{self, Finding, Repaired};
-use super::listed::Listed;
+use super::listed::WrongNumbers;
 use super::{CONSTANTS_CHANGED, Evidence, Fresh, addends};
 use crate::compare::COLOUR_TOLERANCE;
 use crate::render::Sample;
@@ -103,7 +103,7 @@ impl Cause {
     pub(super) fn unless_refuted(self, evidence: &Evidence<'_>) -> Self {
         match self {
             _ if !self.is_refuted(evidence) => self,
-            _ if let Some(listed) = Listed::of(evidence) => Self::unexplained(listed.terms(evidence), Vec::new()),
+            _ if let Some(listed) = WrongNumbers::of(evidence) => Self::unexplained(listed.terms(evidence), Vec::new()),
             Self::Known { .. } | Self::NearlyRight(_) | Self::FewPixels if addends::is_computed(evidence) => {
                 let samples: Vec<[f64; 3]> = evidence.samples.iter().map(Sample::colour_f64).collect();
                 let Evidence { assignment, probes, .. } = *evidence;

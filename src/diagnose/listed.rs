@@ -29,19 +29,19 @@ pub(super) struct WrongNumber {
 
 /// The wrong ones.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub(super) struct Listed {
+pub(super) struct WrongNumbers {
     pub wrong: Vec<WrongNumber>,
 }
 
 /// A number at all places that are looked at.
-struct Number {
+struct TracedNumber {
     name: String,
     line: u32,
     own: Vec<f64>,
     right: Vec<f64>,
 }
 
-impl Listed {
+impl WrongNumbers {
     /// Those of an answer. `None` where it is a shader, or cannot be run.
     pub fn of(evidence: &Evidence<'_>) -> Option<Self> {
         let assignment = evidence.assignment;
@@ -58,9 +58,9 @@ impl Listed {
             let is_it = |site: usize| matches!(&sites[site].what, What::Assign { name: own, .. } if *own == name);
             let event = trace.events.iter().find(|event| is_it(event.site))?;
             let right = right.iter().map(|one| Some(*one.get(&name)?.numbers().first()?)).collect::<Option<_>>()?;
-            Some(Number { line: sites[event.site].line, own: event.values.first()?.clone(), right, name })
+            Some(TracedNumber { line: sites[event.site].line, own: event.values.first()?.clone(), right, name })
         };
-        let numbers: Vec<Number> = (0..array.count).map(number).collect::<Option<_>>()?;
+        let numbers: Vec<TracedNumber> = (0..array.count).map(number).collect::<Option<_>>()?;
         let is_wrong = wrong(&numbers);
         let named = numbers.into_iter().enumerate().filter(|(place, _)| is_wrong[*place]);
         let wrong = named.map(|(place, number)| WrongNumber { name: number.name, place, line: number.line });
@@ -126,7 +126,7 @@ impl Listed {
 }
 
 /// Which numbers are wrong: with the factor that makes most of them right everywhere, of several the one that is the same everywhere.
-fn wrong(numbers: &[Number]) -> Vec<bool> {
+fn wrong(numbers: &[TracedNumber]) -> Vec<bool> {
     let places = numbers.first().map_or(0, |number| number.own.len());
     let mut best: Option<(usize, bool, Vec<bool>)> = None;
     let by_number = numbers
@@ -136,7 +136,7 @@ fn wrong(numbers: &[Number]) -> Vec<bool> {
         if !factor.iter().all(|factor| factor.is_finite() && *factor > 0.0) {
             continue;
         }
-        let is_right = |number: &Number| {
+        let is_right = |number: &TracedNumber| {
             let mut pairs = number.own.iter().zip(&number.right).zip(&factor);
             pairs.all(|((own, right), factor)| is_number(*own / factor, *right))
         };
@@ -155,9 +155,9 @@ mod tests {
     use super::*;
 
     /// The numbers of a matrix for lights at heights 4 and 5, at x = 1 and 2.
-    fn numbers(own: [[f64; 2]; 4]) -> Vec<Number> {
+    fn numbers(own: [[f64; 2]; 4]) -> Vec<TracedNumber> {
         let right = [[4.0, 5.0], [-1.0, -2.0], [-1.0, -1.0], [4.0, 5.0]];
-        let number = |(own, right): ([f64; 2], [f64; 2])| Number {
+        let number = |(own, right): ([f64; 2], [f64; 2])| TracedNumber {
             name: String::new(),
             line: 1,
             own: own.to_vec(),

@@ -8,7 +8,7 @@ mod kept;
 use super::cause::{FEW_PIXELS, NEARLY_RIGHT, PART_ABSENT, PART_MISSING, PART_SCALED, UNEXPLAINED};
 use super::constants::ChangedConstant;
 use super::inside::{self, Finding};
-use super::listed::Listed;
+use super::listed::WrongNumbers;
 use super::locate::{self, Located, TracedProbes, Words};
 use super::{Cause, Evidence, Hints};
 use crate::language::Text;
@@ -124,9 +124,9 @@ pub(super) struct Facts {
     /// Where in the text the mistakes stand that nobody wrote down.
     findings: Vec<Finding>,
     /// Of a program that lists numbers, those that each mistake is about, by id.
-    listed: Vec<(String, Listed)>,
+    listed: Vec<(String, WrongNumbers)>,
     /// All that are wrong.
-    wrong: Option<Listed>,
+    wrong: Option<WrongNumbers>,
     /// What is known of lines that cost nothing.
     kept: KeptLines,
 }
@@ -140,7 +140,7 @@ impl Facts {
         let values: Vec<_> = changed.iter().map(|constant| (constant.name.as_str(), constant.found.clone())).collect();
         let theirs = evidence.assignment.with_constants(&values).unwrap_or_else(|_| evidence.assignment.clone());
         let mut points = TracedProbes::new(evidence, &theirs);
-        let wrong = Listed::of(evidence);
+        let wrong = WrongNumbers::of(evidence);
         let is_sought = wrong.is_none() && changed.is_empty() && !found.is_empty();
         let (findings, slip) = match found {
             _ if is_sought => inside::slip(evidence),
@@ -154,7 +154,7 @@ impl Facts {
             let known = locate::KnownPlaces { slip: slip.as_ref().or(own.as_ref()), only: only.as_ref() };
             locate::mistake(evidence, &theirs, &mut points, found, index, known)
         };
-        let listed: Vec<(String, Listed)> = match &wrong {
+        let listed: Vec<(String, WrongNumbers)> = match &wrong {
             Some(wrong) => found.iter().map(|found| (found.id.clone(), wrong.of_mistake(evidence, found))).collect(),
             None => Vec::new(),
         };
@@ -201,7 +201,7 @@ impl Facts {
     }
 
     /// The wrong numbers of a program that a line of the rubric suffers from by a mistake.
-    fn listed(&self, id: &str, line: &RubricItem) -> Option<Listed> {
+    fn listed(&self, id: &str, line: &RubricItem) -> Option<WrongNumbers> {
         let own = self.listed.iter().find(|(known, _)| known == id).map(|(_, own)| own.clone());
         own.or_else(|| Some(self.wrong.as_ref()?.of_line(line)))
     }

@@ -50,7 +50,7 @@ pub use folders::UploadedFolder;
 pub use judgements::StoredComment;
 pub use keys::{KeyResult, StoredKey};
 pub use late::{LateRules, LateSpan};
-pub use lti::{Deployment, Launch, Link, Platform, PlatformPerson};
+pub use lti::{Deployment, HomeworkLink, Launch, Platform, PlatformPerson};
 pub use lti_contexts::PlatformCourse;
 pub use lti_scores::{DueScore, Stuck};
 pub use open::Location;

@@ -15,14 +15,14 @@ const MOST_OF_TASTE: f64 = 0.4;
 type IsThere<'e> = dyn Fn(usize, DVec4) -> bool + 'e;
 
 /// What a program shows at probes, and what samples are not that.
-struct Compared {
+struct ProbeComparison {
     own: Vec<Computed>,
     contradicted: Vec<bool>,
     /// Where taste decides what is shown.
     is_open: Vec<bool>,
 }
 
-impl Compared {
+impl ProbeComparison {
     fn of(assignment: &Assignment, found: &[FoundMistake], probes: &ProbeSet, samples: &Samples<'_>) -> Option<Self> {
         let own = assignment.computed_by(&assignment.together(found, &[])?, probes);
         let contradicted = own.iter().enumerate().map(|(at, own)| !samples.show(at, own)).collect();
@@ -75,7 +75,7 @@ impl Samples<'_> {
         let colours: Vec<DVec3> = places.iter().map(|place| self.colours[*place]).collect();
         let is_there = |at: usize, position| (self.is_there)(places[at], position);
         let samples = Samples { colours: &colours, is_there: &is_there, tolerance: self.tolerance };
-        let Some(mut compared) = Compared::of(assignment, found, &first, &samples) else { return true };
+        let Some(mut compared) = ProbeComparison::of(assignment, found, &first, &samples) else { return true };
         if compared.contradicted.contains(&true) {
             compared.spare_taste(assignment, found, &first, &samples);
         }
@@ -96,14 +96,14 @@ pub(super) fn contradicted_but_for_taste(
     tolerance: f64,
 ) -> Option<Vec<bool>> {
     let of_samples = Samples { colours: samples, is_there, tolerance };
-    let mut compared = Compared::of(assignment, found, probes, &of_samples)?;
+    let mut compared = ProbeComparison::of(assignment, found, probes, &of_samples)?;
     let count = compared.contradicted.iter().filter(|contradicted| **contradicted).count();
     if count == 0 || count as f64 > MOST_OF_TASTE * samples.len() as f64 {
         return Some(compared.contradicted);
     }
     compared.spare_taste(assignment, found, probes, &of_samples);
     // Where nothing is open the mistake has to show, or else anything would be explained.
-    let Compared { own, contradicted, is_open } = compared;
+    let ProbeComparison { own, contradicted, is_open } = compared;
     let is_telling =
         |at: &usize| !is_open[*at] && !contradicted[*at] && !agrees(probes.probes[*at].colour, own[*at].0, tolerance);
     let is_told = (0..samples.len()).filter(is_telling).count() >= FEWEST;

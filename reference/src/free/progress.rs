@@ -21,7 +21,7 @@ type NamedValue = (Stage, Vec<Vec<f64>>);
 
 /// Of how much of the right answer a text has the values.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct Progress {
+pub(super) struct AnswerProgress {
     /// Whether the text looks a texture up where the right answer does.
     looks_up: bool,
     /// How many of its named values the text computes.
@@ -38,8 +38,8 @@ impl Assignment {
         few: &ProbeSet,
         ways: &[usize],
         given: &dyn Fn(&[usize], &ProbeSet) -> ProbeSet,
-    ) -> Vec<Progress> {
-        let mut found = vec![Progress::default(); ways.len()];
+    ) -> Vec<AnswerProgress> {
+        let mut found = vec![AnswerProgress::default(); ways.len()];
         let programs = self.traced_solution().zip(TracedProgram::new(extended, texts).ok());
         let Some((solution, theirs)) = programs else { return found };
         let few = few.thinned(PROBES);
@@ -57,8 +57,10 @@ impl Assignment {
                     events.any(|event| has(&event.values, &event.lanes, right, lanes(right)))
                 };
                 let looks_up = |right: &Vec<Vec<f64>>| places.iter().any(|(own, on)| has(own, on, right, lanes(right)));
-                *found =
-                    Progress { looks_up: looked_up.iter().any(looks_up), count: named.iter().filter(computes).count() };
+                *found = AnswerProgress {
+                    looks_up: looked_up.iter().any(looks_up),
+                    count: named.iter().filter(computes).count(),
+                };
             }
         }
         found

@@ -13,7 +13,7 @@ use crate::{Assignment, Value};
 pub(super) const QUAD: [[f64; 2]; 4] = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
 
 /// A probe's fragment, and how far beside it a lane is.
-type Lane<'p> = (&'p Spot, [f64; 2]);
+type QuadLane<'p> = (&'p Spot, [f64; 2]);
 
 /// The fragment stage at the probes, fed with all but what a vertex stage that is handed in hands over.
 pub(super) fn fragment_run<'p>(
@@ -26,14 +26,15 @@ pub(super) fn fragment_run<'p>(
     let pipeline = program.pipeline.as_ref()?;
     let fragment: &'p Program = &program.fragment;
     let spots = places.iter().map(|place| place.probe.spot.as_deref()).collect::<Option<Vec<&'p Spot>>>()?;
-    let lanes: Vec<Lane<'p>> =
+    let lanes: Vec<QuadLane<'p>> =
         spots.iter().flat_map(|spot| QUAD[..each].iter().map(|beside| (*spot, *beside))).collect();
     let mut given: Vec<(&str, Vec<Vec<f64>>)> = Vec::new();
     for (number, input) in fragment.inputs().iter().enumerate() {
         let columns = match input.name.as_str() {
             "gl_FragCoord" => (0..4)
                 .map(|axis| {
-                    let at = |(spot, beside): &Lane<'_>| spot.place[axis] + beside.get(axis).copied().unwrap_or(0.0);
+                    let at =
+                        |(spot, beside): &QuadLane<'_>| spot.place[axis] + beside.get(axis).copied().unwrap_or(0.0);
                     lanes.iter().map(at).collect()
                 })
                 .collect(),
@@ -50,9 +51,9 @@ pub(super) fn fragment_run<'p>(
 }
 
 /// What the probes' own vertex stage hands over to an input of the fragment stage; 0 where another stage does that later.
-fn handed(pipeline: &Pipeline, varying: &Varying, input: &ProgramVariable, lanes: &[Lane<'_>]) -> Vec<Vec<f64>> {
+fn handed(pipeline: &Pipeline, varying: &Varying, input: &ProgramVariable, lanes: &[QuadLane<'_>]) -> Vec<Vec<f64>> {
     let output = &pipeline.vertex.outputs()[varying.output];
-    let value = |(spot, at): &Lane<'_>| -> Option<Value> {
+    let value = |(spot, at): &QuadLane<'_>| -> Option<Value> {
         let [right, above] = &spot.varyings_beside;
         let (here, right, above) = (written(&spot.varyings, output)?, written(right, output)?, written(above, output)?);
         if is_flat(output) {

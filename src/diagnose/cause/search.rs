@@ -5,7 +5,7 @@ use super::{Cause, FEW_PIXELS, HARD_CODED, NEARLY, spared, with_constants, worth
 use crate::compare::{COLOUR_TOLERANCE, POSITION_TOLERANCE, position_difference};
 use crate::diagnose::constants::{self, ChangedConstant};
 use crate::diagnose::inside::{self, RepairAim, Repaired};
-use crate::diagnose::listed::Listed;
+use crate::diagnose::listed::WrongNumbers;
 use crate::diagnose::{Evidence, POSITION_CHANGED, addends, hard_coded, plain, position_scale};
 use crate::render::Sample;
 use crate::report::FrameResult;
@@ -66,7 +66,7 @@ pub(in crate::diagnose) fn cause(evidence: &Evidence<'_>, shape: bool) -> Cause 
         return match assignment.equation.reads() {
             _ if frames_agree || !shape => Cause::Right,
             // A number that is hardly off shows in a picture all the same.
-            _ if let Some(listed) = Listed::of(evidence).filter(Listed::is_wrong) => {
+            _ if let Some(listed) = WrongNumbers::of(evidence).filter(WrongNumbers::is_wrong) => {
                 Cause::unexplained(listed.terms(evidence), Vec::new())
             }
             // What the last digits decide is not judged.

@@ -5,7 +5,7 @@ use super::{Cause, spared, with_constants, worth};
 use crate::compare::COLOUR_TOLERANCE;
 use crate::diagnose::constants::{self, ChangedConstant};
 use crate::diagnose::inside::{self, Finding, Flaw, RepairAim, Repaired};
-use crate::diagnose::listed::Listed;
+use crate::diagnose::listed::WrongNumbers;
 use crate::diagnose::locate::{self, TracedProbes};
 use crate::diagnose::{Evidence, addends, plain};
 use reference::Assignment;
@@ -35,7 +35,7 @@ pub(super) fn alone(
     alternatives: &Alternatives<'_>,
     samples: &[[f64; 3]],
 ) -> Result<Cause, Box<Others>> {
-    if let Some(listed) = Listed::of(evidence) {
+    if let Some(listed) = WrongNumbers::of(evidence) {
         return Ok(Cause::unexplained(listed.terms(evidence), Vec::new()));
     }
     let parts = match explain_parts(alternatives, samples, &is_there(evidence), COLOUR_TOLERANCE) {

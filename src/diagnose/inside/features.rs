@@ -16,7 +16,7 @@ use reference::traced::{Bench, Seen};
 const MOST_TURNS: usize = 16;
 
 /// What a line judges.
-struct Feature {
+struct FeatureTrace {
     /// What the text may compute, turn by turn of a loop: the value, what it has more than what is there without the feature, or what that
     /// makes of all.
     values: Vec<Vec<ScalarColumns>>,
@@ -54,7 +54,7 @@ impl Search<'_, '_> {
         })
     }
 
-    fn lines_with(&self, is_it: impl Fn(&Self, &Feature) -> bool) -> Vec<String> {
+    fn lines_with(&self, is_it: impl Fn(&Self, &FeatureTrace) -> bool) -> Vec<String> {
         let rubric = self.assignment.rubric.iter().enumerate();
         let has_it = |line: usize| {
             let Some(programs) = self.assignment.feature_values(line) else { return false };
@@ -65,7 +65,7 @@ impl Search<'_, '_> {
         own.map(|(_, line)| line.id.clone()).collect()
     }
 
-    fn feature(&self, [with, without]: &[FeatureValue; 2]) -> Option<Feature> {
+    fn feature(&self, [with, without]: &[FeatureValue; 2]) -> Option<FeatureTrace> {
         let (turns, moves) = self.value_of(with)?;
         let (instead, _) = self.value_of(without)?;
         if turns.len() != instead.len() {
@@ -79,12 +79,12 @@ impl Search<'_, '_> {
         let is_telling = |turns: &Vec<ScalarColumns>| !turns.iter().all(is_any_number);
         let values = [turns.iter().map(|turn| turn.values.clone()).collect(), more];
         let values: Vec<Vec<ScalarColumns>> = values.into_iter().filter(is_telling).collect();
-        let feature = Feature { values, lanes: turns.into_iter().map(|turn| turn.lanes).collect(), moves };
+        let feature = FeatureTrace { values, lanes: turns.into_iter().map(|turn| turn.lanes).collect(), moves };
         (!feature.values.is_empty()).then_some(feature)
     }
 
     /// What the line's feature adds to all that is seen: a text may sum up what the solution adds piece by piece.
-    fn contribution(&self, programs: &[FeatureValue; 2]) -> Option<Feature> {
+    fn contribution(&self, programs: &[FeatureValue; 2]) -> Option<FeatureTrace> {
         if self.in_quads {
             return None;
         }
@@ -97,17 +97,17 @@ impl Search<'_, '_> {
         let values: ScalarColumns = (0..3).map(channel).collect();
         let is_telling = !is_any_number(&values);
         let moves = vec![DVec3::from(ADDED); more.len()];
-        is_telling.then(|| Feature { values: vec![vec![values]], lanes: vec![vec![true; more.len()]], moves })
+        is_telling.then(|| FeatureTrace { values: vec![vec![values]], lanes: vec![vec![true; more.len()]], moves })
     }
 
     /// The same where the fragment stage is handed what the vertex stage of a right answer computes: of the last corner.
-    fn at_the_last_corner(&self, feature: &Feature) -> Option<Feature> {
+    fn at_the_last_corner(&self, feature: &FeatureTrace) -> Option<FeatureTrace> {
         let lanes = self.trace(Stage::Fragment)?.events.first()?.lanes.len();
         let is_flat = self.quantities.all.iter().any(|own| own.stage != own.computed_in);
         let turn = |value: &ScalarColumns| value.iter().map(|own| at_last_corner(own, lanes)).collect();
         let values = feature.values.iter().map(|turns| turns.iter().map(turn).collect());
         let at_corner = |turn: &Vec<bool>| at_last_corner(turn, lanes);
-        is_flat.then(|| Feature {
+        is_flat.then(|| FeatureTrace {
             values: values.collect(),
             lanes: feature.lanes.iter().map(at_corner).collect(),
             moves: feature.moves.clone(),
@@ -128,7 +128,7 @@ impl Search<'_, '_> {
     }
 
     /// Where the text computes the value: each time an event for each turn.
-    fn computing(&self, feature: &Feature) -> Vec<(Stage, Vec<usize>)> {
+    fn computing(&self, feature: &FeatureTrace) -> Vec<(Stage, Vec<usize>)> {
         let handed_over = self.at_the_last_corner(feature);
         let mut found = Vec::new();
         for stage in [Stage::Vertex, Stage::Fragment] {
@@ -141,7 +141,7 @@ impl Search<'_, '_> {
     }
 
     /// Whether all that is seen moves as a right answer's does when something is added to events. What is cut off tells nothing.
-    fn adds(&self, stage: Stage, events: &[usize], feature: &Feature) -> bool {
+    fn adds(&self, stage: Stage, events: &[usize], feature: &FeatureTrace) -> bool {
         let Some(trace) = self.trace(stage) else { return false };
         let Some(after) = self.seen_raised(stage, trace, events) else { return false };
         let places = self.own.colours.iter().zip(&after.colours).zip(&feature.moves);
@@ -165,7 +165,7 @@ fn moved(before: &Seen, after: &Seen) -> Vec<DVec3> {
 
 /// The events on the way of what is seen that are the value, for each time an event for each turn: those of one statement, or one of
 /// each written out.
-fn computing(trace: &Trace, way: &[usize], feature: &Feature) -> Vec<Vec<usize>> {
+fn computing(trace: &Trace, way: &[usize], feature: &FeatureTrace) -> Vec<Vec<usize>> {
     let is_turn = |at: &usize, turn: usize| is_it(&trace.events[*at], feature, turn);
     let count = feature.lanes.len();
     if count == 1 {
@@ -186,7 +186,7 @@ fn computing(trace: &Trace, way: &[usize], feature: &Feature) -> Vec<Vec<usize>>
 }
 
 /// Whether an event is the value of a turn. What is nothing need not be computed.
-fn is_it(event: &Event, feature: &Feature, turn: usize) -> bool {
+fn is_it(event: &Event, feature: &FeatureTrace, turn: usize) -> bool {
     let lanes_of_right = &feature.lanes[turn];
     let is_value = |turns: &Vec<ScalarColumns>| {
         let value = &turns[turn];

@@ -29,21 +29,21 @@ pub async fn copy(
     }
     // All is read before the course is begun: while its tables are filled, nothing else is written into the first course's.
     let zone = from.store.course().await?.zone().clone();
-    let source = Source::read(from, |at| Some(days_later(at?, days?, &zone))).await?;
+    let source = CourseCopy::read(from, |at| Some(days_later(at?, days?, &zone))).await?;
     let (first, id, title) = (first.clone(), id.to_owned(), title.to_owned());
     let now = first.clock.now();
     to_its_end(async move { filled(&first, &id, async |tables| source.write(tables, &title, now).await).await }).await
 }
 
 /// What a copy takes of a course, with the dates of the copy.
-struct Source {
+struct CourseCopy {
     course: Course,
     folders: Vec<(UploadedFolder, Folder)>,
     rules: Vec<AssignmentSettings>,
     places: Vec<CoursePlace>,
 }
 
-impl Source {
+impl CourseCopy {
     async fn read(from: &Service, shifted: impl Fn(Option<Millis>) -> Option<Millis>) -> StoreResult<Self> {
         let mut folders = Vec::new();
         for (_, id) in from.store.published().await? {

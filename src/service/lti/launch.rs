@@ -2,7 +2,7 @@
 
 use super::super::identity::{Jar, Visitor, become_student, end_session, has_launch, open_for, token_hash};
 use super::super::pages::{PageFrame, launch_lost, shown_choice};
-use super::super::store::{Link, Platform, Proof, StudentRecord};
+use super::super::store::{HomeworkLink, Platform, Proof, StudentRecord};
 use super::super::{Service, State};
 use super::claims::{Claims, DEEP_LINKING, RESOURCE_LINK};
 use super::people::{Described, PlatformStudent, staff, student, teaches_no_more};
@@ -223,7 +223,7 @@ async fn note_link(
     (link, state): (&str, &State),
 ) -> Result<(), Problem> {
     let grades = claims.grades.as_ref().filter(|grades| grades.scope.iter().any(|scope| scope == super::scores::SCOPE));
-    let link = Link {
+    let link = HomeworkLink {
         platform_id: platform.id.clone(),
         link_id: link.to_owned(),
         assignment: state.assignment.id.clone(),

@@ -4,7 +4,7 @@ use super::super::Service;
 use super::super::errors::Problem;
 use super::super::identity::normal_number;
 use super::super::roster;
-use super::super::store::{Link, Platform, RosterLine, StudentRecord};
+use super::super::store::{HomeworkLink, Platform, RosterLine, StudentRecord};
 use super::claims::{id, or_none};
 use super::next_page::next_page;
 use super::people::{Described, PlatformStudent, student, teaches_no_more};
@@ -85,7 +85,7 @@ pub struct FetchedRoster {
 }
 
 /// Takes everybody who is a student in a platform's course onto the roster; who stands there already stays. Whom the list has and who teaches there no more loses the role that they have by the platform.
-pub async fn import(service: &Service, platform: &Platform, link: &Link) -> Result<FetchedRoster, Problem> {
+pub async fn import(service: &Service, platform: &Platform, link: &HomeworkLink) -> Result<FetchedRoster, Problem> {
     let failed = |failure: Failure| {
         tracing::warn!(failure, "the roster of a platform");
         refused(

@@ -22,7 +22,7 @@ const PATIENCE: Duration = Duration::from_secs(600);
 
 /// Who asks for which number. It goes to the browser and back, sealed by the token of its form.
 #[derive(Debug, Serialize, Deserialize)]
-struct Claimed {
+struct NumberClaim {
     platform: String,
     subject: String,
     name: String,
@@ -71,7 +71,7 @@ pub(super) fn asked(
     (platform, link, who): (&Platform, &str, &Described),
     (state, student): (&State, &StudentRecord),
 ) -> Result<Response, Problem> {
-    let claimed = Claimed {
+    let claimed = NumberClaim {
         platform: platform.id.clone(),
         subject: who.subject.clone(),
         name: who.name.clone(),
@@ -116,11 +116,11 @@ pub async fn answered(
 }
 
 /// Who asks, where the form is one of ours and not old.
-fn claimed(service: &Service, headers: &HeaderMap, given: &NumberForm) -> Result<Claimed, Problem> {
+fn claimed(service: &Service, headers: &HeaderMap, given: &NumberForm) -> Result<NumberClaim, Problem> {
     let own = if is_own_page(service, headers) { given.csrf.as_str() } else { "" };
     check_form(service, &given.claim, own)?;
     let claim = BASE64_URL_SAFE_NO_PAD.decode(&given.claim).map_err(|error| Problem::internal(&error))?;
-    let claimed: Claimed = serde_json::from_slice(&claim).map_err(|error| Problem::internal(&error))?;
+    let claimed: NumberClaim = serde_json::from_slice(&claim).map_err(|error| Problem::internal(&error))?;
     match claimed.until > service.clock.now() {
         true => Ok(claimed),
         false => Err(refused(

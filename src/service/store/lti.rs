@@ -39,7 +39,7 @@ pub struct Launch {
 
 /// A link of a platform's course to a homework.
 #[derive(Clone, Debug, PartialEq, Eq, sqlx::FromRow)]
-pub struct Link {
+pub struct HomeworkLink {
     /// Id of the platform.
     pub platform_id: String,
     /// The platform's id of the link.
@@ -173,7 +173,7 @@ impl Store {
     }
 
     /// Notes a link; what the platform does not say any more stays known.
-    pub async fn note_link(&self, link: &Link) -> Result<()> {
+    pub async fn note_link(&self, link: &HomeworkLink) -> Result<()> {
         const SQL: &str = "INSERT INTO lti_links (platform_id, link_id, assignment, context, line_item, memberships) \
                            VALUES ($1, $2, $3, $4, $5, $6) ON CONFLICT (platform_id, link_id) DO UPDATE SET \
                            assignment = excluded.assignment, context = excluded.context, \
@@ -194,7 +194,7 @@ impl Store {
     }
 
     /// Every link.
-    pub async fn links(&self) -> Result<Vec<Link>> {
+    pub async fn links(&self) -> Result<Vec<HomeworkLink>> {
         const SQL: &str = "SELECT platform_id, link_id, assignment, context, line_item, memberships FROM lti_links \
                            ORDER BY platform_id, link_id";
         Ok(on!(&self.read, db => sqlx::query_as(SQL).fetch_all(db).await?))

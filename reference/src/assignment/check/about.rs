@@ -10,20 +10,20 @@ use crate::assignment::HandedIn;
 use crate::feature::Feature;
 use crate::interpreter::DISCARD;
 use crate::interpreter::outline::{Word, loop_heads, words};
-use flow::{Flow, Node, OwnFunction, given, names};
+use flow::{Flow, OwnFunction, ScopedName, given, names};
 use std::collections::BTreeSet;
 
 /// What belongs to a line.
 #[derive(Debug, Default)]
 struct Belongs {
     /// What is not read any more, without the feature, where it is used.
-    gone: BTreeSet<Node>,
+    gone: BTreeSet<ScopedName>,
     /// What is given the value that is another one without it.
-    given: BTreeSet<Node>,
+    given: BTreeSet<ScopedName>,
     /// Those that are given other values as well, or of whose value that is a part.
-    parts: BTreeSet<Node>,
+    parts: BTreeSet<ScopedName>,
     /// What is read all the same where it is used.
-    left: BTreeSet<Node>,
+    left: BTreeSet<ScopedName>,
     /// Whether it is what throws fragments away.
     throws_away: bool,
 }
@@ -104,7 +104,7 @@ fn belongs(flow: &Flow<'_>, replaced: &[[String; 2]]) -> Option<Belongs> {
         belongs.gone.extend(names(&gone).filter(|name| !left.contains(name)).map(|name| flow.seen_in(function, name)));
         belongs.left.extend(left.iter().map(|name| flow.seen_in(function, name)));
     }
-    let is_own = |node: &Node| flow.is_computed(node) && !belongs.given.contains(node);
+    let is_own = |node: &ScopedName| flow.is_computed(node) && !belongs.given.contains(node);
     belongs.gone.retain(is_own);
     Some(belongs)
 }
@@ -116,8 +116,9 @@ fn deciding(under: &[Word]) -> impl Iterator<Item = &Word> {
 }
 
 /// What the colour is made of without all features.
-fn rest(flow: &Flow<'_>, all: &[Belongs], colour: &str) -> BTreeSet<Node> {
-    let is_cut = |to: &Node, from: &Node| all.iter().any(|own| own.given.contains(to) && own.gone.contains(from));
+fn rest(flow: &Flow<'_>, all: &[Belongs], colour: &str) -> BTreeSet<ScopedName> {
+    let is_cut =
+        |to: &ScopedName, from: &ScopedName| all.iter().any(|own| own.given.contains(to) && own.gone.contains(from));
     flow.made_of(&BTreeSet::from([flow.seen_in_main(colour)]), &is_cut)
 }
 
@@ -126,19 +127,19 @@ struct Lines<'t> {
     flow: Flow<'t>,
     belongs: Vec<Belongs>,
     /// For each line what is gone without its feature, and what that is made of, but for what is read all the same.
-    within: Vec<BTreeSet<Node>>,
+    within: Vec<BTreeSet<ScopedName>>,
     /// What the colour is made of without all features.
-    rest: BTreeSet<Node>,
+    rest: BTreeSet<ScopedName>,
     /// Whether a line judges that.
     has_rest: bool,
 }
 
 impl Lines<'_> {
     /// What a line with a feature is about.
-    fn about(&self, line: usize) -> BTreeSet<Node> {
+    fn about(&self, line: usize) -> BTreeSet<ScopedName> {
         // What goes into the colour in other ways as well is nobody's own.
         let within = self.within[line].iter().filter(|node| self.has_rest || !self.rest.contains(node));
-        let mut about: BTreeSet<Node> = within.cloned().collect();
+        let mut about: BTreeSet<ScopedName> = within.cloned().collect();
         let own = self.flow.computed().filter(|node| self.combines(node, line) || self.hands_on(node, line));
         about.extend(own.cloned());
         about.extend(self.belongs[line].given.iter().cloned());
@@ -146,13 +147,13 @@ impl Lines<'_> {
     }
 
     /// Whether a feature goes by the value that another one changes in a part.
-    fn combines(&self, node: &Node, line: usize) -> bool {
+    fn combines(&self, node: &ScopedName, line: usize) -> bool {
         let is_part = |own: &Belongs| own.given.contains(node) && own.parts.contains(node);
         self.belongs.iter().any(is_part) && !self.from(node).is_disjoint(&self.belongs[line].given)
     }
 
     /// Whether a value is made of what a feature gives, and of nothing that another one has to do with.
-    fn hands_on(&self, node: &Node, line: usize) -> bool {
+    fn hands_on(&self, node: &ScopedName, line: usize) -> bool {
         let from = self.from(node);
         let mut others = self.belongs.iter().enumerate().filter(|(other, _)| *other != line);
         let is_beside = |(number, other): (usize, &Belongs)| {
@@ -162,11 +163,11 @@ impl Lines<'_> {
         !from.is_disjoint(&self.belongs[line].given) && others.all(is_beside)
     }
 
-    fn from(&self, node: &Node) -> BTreeSet<Node> {
+    fn from(&self, node: &ScopedName) -> BTreeSet<ScopedName> {
         self.flow.made_of(&BTreeSet::from([node.clone()]), &|_, _| false)
     }
 
-    fn named(&self, nodes: BTreeSet<Node>) -> Vec<String> {
+    fn named(&self, nodes: BTreeSet<ScopedName>) -> Vec<String> {
         let own = nodes.into_iter().filter(|node| self.flow.is_computed(node)).map(|(_, name)| name);
         own.collect::<BTreeSet<String>>().into_iter().collect()
     }

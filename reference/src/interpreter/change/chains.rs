@@ -7,7 +7,7 @@ use super::{Local, NameScope, Operator, bare, is_literal};
 use crate::interpreter::syntax::{Binary, Expression, ExpressionKind, Unary};
 use crate::interpreter::types::Type;
 
-type Others = Vec<(Binary, u32, Expression)>;
+type OtherOperands = Vec<(Binary, u32, Expression)>;
 
 /// Those of a chain of operators.
 pub(super) fn changes(place: &ExpressionPlace<'_>, scope: &mut NameScope<'_>, found: &mut Vec<Local>) {
@@ -22,7 +22,7 @@ pub(super) fn changes(place: &ExpressionPlace<'_>, scope: &mut NameScope<'_>, fo
         }
         return;
     };
-    let own = Chain { first, others, line: place.own.line };
+    let own = OperatorChain { first, others, line: place.own.line };
     own.left_out(place.own, scope, found);
     own.other_operators(found);
     own.sums_of_factors(found);
@@ -58,13 +58,13 @@ fn is_multiplicative(operator: Binary) -> bool {
     matches!(operator, Binary::Multiply | Binary::Divide)
 }
 
-struct Chain<'a> {
+struct OperatorChain<'a> {
     first: &'a Expression,
-    others: &'a Others,
+    others: &'a OtherOperands,
     line: u32,
 }
 
-impl Chain<'_> {
+impl OperatorChain<'_> {
     fn operand(&self, at: usize) -> &Expression {
         if at == 0 { self.first } else { &self.others[at - 1].2 }
     }
@@ -79,14 +79,14 @@ impl Chain<'_> {
 
     /// The operands from `from` to before `to`.
     fn part(&self, from: usize, to: usize) -> Expression {
-        let rest: Others = self.others[from..to - 1].to_vec();
+        let rest: OtherOperands = self.others[from..to - 1].to_vec();
         if rest.is_empty() {
             return self.operand(from).clone();
         }
         self.expression(ExpressionKind::Chain(Box::new(self.operand(from).clone()), rest))
     }
 
-    fn chain(&self, first: Expression, others: Others) -> Expression {
+    fn chain(&self, first: Expression, others: OtherOperands) -> Expression {
         self.expression(ExpressionKind::Chain(Box::new(first), others))
     }
 
@@ -180,7 +180,7 @@ impl Chain<'_> {
             return;
         }
         let product = |places: &[usize]| {
-            let rest: Others =
+            let rest: OtherOperands =
                 places[1..].iter().map(|at| (Binary::Multiply, self.line, self.operand(*at).clone())).collect();
             let first = self.operand(places[0]).clone();
             if rest.is_empty() { first } else { self.chain(first, rest) }

@@ -23,7 +23,7 @@ use copies::{copied, together};
 use declared::Declared;
 use expressions::of_expression;
 pub use ingredients::Ingredients;
-use order::Order;
+use order::StatementOrder;
 use size::{size, tokens};
 use statements::{ALWAYS, always, without, without_else};
 use std::cell::Cell;
@@ -160,7 +160,7 @@ impl Repairable {
     pub fn repairs(&self, lines: &[u32], near: usize, right: &Ingredients) -> Vec<ProgramRepair> {
         let (mut found, mut statements) = (Vec::new(), Vec::new());
         let (mut expression, mut statement) = (0, 0);
-        let mut order = Order::default();
+        let mut order = StatementOrder::default();
         let is_sought =
             |own: &Expression| paths(own).iter().any(|path| lines.contains(&ExpressionPlace::of(own, path).own.line));
         // The condition of the last branch that nothing else is done without, and the same for the branch whose condition comes next.

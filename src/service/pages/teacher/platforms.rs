@@ -10,7 +10,7 @@ use crate::service::identity::{LecturerPage, Teacher, new_id};
 use crate::service::lti::known::{self, KnownPlatform};
 use crate::service::lti::memberships::{self, FetchedRoster};
 use crate::service::lti::{self, contexts, registration};
-use crate::service::store::{Link, Platform, StaffRole};
+use crate::service::store::{HomeworkLink, Platform, StaffRole};
 use askama::Template;
 use axum::Form;
 use axum::extract::State as Shared;
@@ -41,7 +41,7 @@ struct PlatformsPage {
 struct PlatformLine {
     known: KnownPlatform,
     /// Links by which rosters are fetched, one of each course.
-    rosters: Vec<Link>,
+    rosters: Vec<HomeworkLink>,
 }
 
 /// A form of the page. `wish` says which.
@@ -99,8 +99,8 @@ async fn view(
     teacher.check_course()?;
     let links = service.store.links().await?;
     let line = |known: KnownPlatform| {
-        let mut rosters: Vec<Link> = Vec::new();
-        let own = |link: &&Link| link.platform_id == known.platform.id && link.memberships.is_some();
+        let mut rosters: Vec<HomeworkLink> = Vec::new();
+        let own = |link: &&HomeworkLink| link.platform_id == known.platform.id && link.memberships.is_some();
         for link in links.iter().filter(own) {
             if !rosters.iter().any(|known| known.context == link.context) {
                 rosters.push(link.clone());

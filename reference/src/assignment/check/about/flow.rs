@@ -5,12 +5,12 @@ use crate::interpreter::outline::{FunctionText, StatementText, Word, functions};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A name, and the number of the function in which it is declared; none outside of functions.
-pub(super) type Node = (Option<usize>, String);
+pub(super) type ScopedName = (Option<usize>, String);
 
 /// The functions of a solution, and from what each name is computed.
 pub(super) struct Flow<'t> {
     pub functions: Vec<OwnFunction<'t>>,
-    made_of: BTreeMap<Node, BTreeSet<Node>>,
+    made_of: BTreeMap<ScopedName, BTreeSet<ScopedName>>,
 }
 
 /// A function of the solution.
@@ -38,7 +38,7 @@ impl<'t> Flow<'t> {
             functions(text).into_iter().map(move |function| OwnFunction::of(text, function))
         });
         let mut flow = Self { functions: own.collect(), made_of: BTreeMap::new() };
-        let mut edges: Vec<(Node, BTreeSet<Node>)> = Vec::new();
+        let mut edges: Vec<(ScopedName, BTreeSet<ScopedName>)> = Vec::new();
         for (function, own) in flow.functions.iter().enumerate() {
             for statement in &own.text.statements {
                 for giving in given(statement) {
@@ -58,42 +58,46 @@ impl<'t> Flow<'t> {
     }
 
     /// What a name means in a function.
-    pub fn seen_in(&self, function: usize, name: &str) -> Node {
+    pub fn seen_in(&self, function: usize, name: &str) -> ScopedName {
         (self.functions[function].locals.contains(name).then_some(function), name.to_owned())
     }
 
     /// What the name of a definition means.
-    pub fn seen_in_main(&self, name: &str) -> Node {
+    pub fn seen_in_main(&self, name: &str) -> ScopedName {
         let is_its = |own: &OwnFunction<'_>| own.text.name.text == "main" && own.locals.contains(name);
         (self.functions.iter().position(is_its), name.to_owned())
     }
 
     /// What is given a value in a function.
-    pub fn given_by(&self, function: usize, giving: &Giving<'_>) -> Node {
+    pub fn given_by(&self, function: usize, giving: &Giving<'_>) -> ScopedName {
         giving.to.map_or_else(|| self.functions[function].result(), |to| self.seen_in(function, to))
     }
 
     /// Whether it is computed in the solution.
-    pub fn is_computed(&self, node: &Node) -> bool {
+    pub fn is_computed(&self, node: &ScopedName) -> bool {
         self.made_of.contains_key(node)
     }
 
     /// All that is computed.
-    pub fn computed(&self) -> impl Iterator<Item = &Node> {
+    pub fn computed(&self) -> impl Iterator<Item = &ScopedName> {
         self.made_of.keys()
     }
 
     /// Some names and what they are computed from, by all steps but some. What a function that is among them is given is its caller's
     /// affair.
-    pub fn made_of(&self, nodes: &BTreeSet<Node>, is_cut: &dyn Fn(&Node, &Node) -> bool) -> BTreeSet<Node> {
-        let is_given = |node: &Node| {
+    pub fn made_of(
+        &self,
+        nodes: &BTreeSet<ScopedName>,
+        is_cut: &dyn Fn(&ScopedName, &ScopedName) -> bool,
+    ) -> BTreeSet<ScopedName> {
+        let is_given = |node: &ScopedName| {
             let own = node.0.map(|function| &self.functions[function]);
             own.is_some_and(|own| {
                 nodes.contains(&own.result()) && own.parameters.iter().any(|(name, _)| *name == node.1)
             })
         };
         let mut found = BTreeSet::new();
-        let mut open: Vec<Node> = nodes.iter().cloned().collect();
+        let mut open: Vec<ScopedName> = nodes.iter().cloned().collect();
         while let Some(node) = open.pop() {
             if found.insert(node.clone()) && !is_given(&node) {
                 let from = self.made_of.get(&node).into_iter().flatten();
@@ -104,7 +108,7 @@ impl<'t> Flow<'t> {
     }
 
     /// What some words read. What stands in the brackets of a call is read by the function.
-    fn read(&self, function: usize, words: &[Word]) -> BTreeSet<Node> {
+    fn read(&self, function: usize, words: &[Word]) -> BTreeSet<ScopedName> {
         let mut found = BTreeSet::new();
         let mut at = 0;
         while at < words.len() {
@@ -124,7 +128,7 @@ impl<'t> Flow<'t> {
     }
 
     /// What calls among some words give to parameters, and parameters to what is handed over.
-    fn handed_over(&self, function: usize, words: &[Word]) -> Vec<(Node, BTreeSet<Node>)> {
+    fn handed_over(&self, function: usize, words: &[Word]) -> Vec<(ScopedName, BTreeSet<ScopedName>)> {
         let mut edges = Vec::new();
         for at in 0..words.len() {
             let Some(called) = self.called(words, at) else { continue };
@@ -157,7 +161,7 @@ impl<'t> OwnFunction<'t> {
     }
 
     /// What it returns.
-    fn result(&self) -> Node {
+    fn result(&self) -> ScopedName {
         (None, self.text.name.text.clone())
     }
 }

@@ -1,23 +1,23 @@
 //! Brackets that are missing, or stand around something else.
 
-use super::{Chain, Others, is_additive, is_multiplicative};
+use super::{OperatorChain, OtherOperands, is_additive, is_multiplicative};
 use crate::interpreter::change::tree::operands;
 use crate::interpreter::change::{Local, Operator, bare, is_literal};
 use crate::interpreter::syntax::{Expression, ExpressionKind};
 
-impl Chain<'_> {
+impl OperatorChain<'_> {
     /// Brackets that are missing, or stand around something else.
     pub(super) fn grouped(&self, found: &mut Vec<Local>) {
         for at in 0..self.count() {
             let ExpressionKind::Chain(inner, rest) = &bare(self.operand(at)).kind else { continue };
-            let inner = Chain { first: inner, others: rest, line: self.line };
+            let inner = OperatorChain { first: inner, others: rest, line: self.line };
             let (outer, within) = (self.others[at.saturating_sub(1)].0, inner.others[0].0);
             if is_multiplicative(outer) && is_additive(within) {
                 // a * (b + c) * d becomes a * b + c * d.
                 let last = inner.count() - 1;
                 let mut left = inner.first.clone();
                 if at > 0 {
-                    let mut others: Others = self.others[..at].to_vec();
+                    let mut others: OtherOperands = self.others[..at].to_vec();
                     others[at - 1].2 = left;
                     left = self.chain(self.first.clone(), others);
                 }
@@ -31,7 +31,7 @@ impl Chain<'_> {
             } else if is_additive(outer) && is_multiplicative(within) {
                 // a + b * c becomes (a + b) * c, and a * b + c becomes a * (b + c).
                 if at > 0 {
-                    let mut others: Others = self.others[..at].to_vec();
+                    let mut others: OtherOperands = self.others[..at].to_vec();
                     others[at - 1].2 = inner.first.clone();
                     let sum = self.chain(self.first.clone(), others);
                     let mistake = grouping_of(&sum);
@@ -51,7 +51,7 @@ impl Chain<'_> {
                     let whole = match at {
                         0 => product,
                         _ => {
-                            let mut before: Others = self.others[..at].to_vec();
+                            let mut before: OtherOperands = self.others[..at].to_vec();
                             before[at - 1].2 = product;
                             self.chain(self.first.clone(), before)
                         }
@@ -63,7 +63,7 @@ impl Chain<'_> {
     }
 
     /// A product of a sum of which only some parts are multiplied.
-    fn partly_grouped(&self, at: usize, inner: &Chain<'_>, found: &mut Vec<Local>) {
+    fn partly_grouped(&self, at: usize, inner: &OperatorChain<'_>, found: &mut Vec<Local>) {
         let product = |part: Expression| {
             let part = self.bracketed(part);
             let (mut first, mut others) = (self.first.clone(), self.others.clone());

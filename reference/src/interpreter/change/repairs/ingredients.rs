@@ -46,7 +46,7 @@ struct Wrapper {
 }
 
 /// A change that takes something from a right answer.
-pub(super) struct Added {
+pub(super) struct AddedMistake {
     pub mistake: Operator,
     pub expression: Expression,
     pub name: Option<String>,
@@ -173,11 +173,11 @@ impl Ingredients {
         place: &ExpressionPlace<'_>,
         kind: &Type,
         theirs: &[(Expression, Type)],
-    ) -> Vec<Added> {
+    ) -> Vec<AddedMistake> {
         let (own, is_whole) = (place.own, place.is_whole());
         let mut found = Vec::new();
         let is_measured = place.parent.is_some_and(is_measure);
-        let plain = |mistake, expression| Added {
+        let plain = |mistake, expression| AddedMistake {
             mistake,
             expression,
             name: None,
@@ -204,7 +204,7 @@ impl Ingredients {
         for wrapper in self.wrappers.iter().filter(|wrapper| wrapper.kind == *kind) {
             let expression = with(&wrapper.call, &[wrapper.hole], own.clone());
             let is_bound_by_zero = calls::is_bound_by_zero(&wrapper.call);
-            found.push(Added { is_bound_by_zero, ..plain(wrapper.operator, expression) });
+            found.push(AddedMistake { is_bound_by_zero, ..plain(wrapper.operator, expression) });
         }
         let has = |parent: &Expression, which: &[Binary]| match &parent.kind {
             ExpressionKind::Chain(_, others) => others.iter().any(|(operator, ..)| which.contains(operator)),
@@ -249,7 +249,7 @@ impl Ingredients {
                 (_, 1) if !is_whole || place.parent.is_some_and(is_given_by_an_operator) => value.clone(),
                 _ => continue,
             };
-            let named = |mistake, expression| Added { name: Some(name.clone()), ..plain(mistake, expression) };
+            let named = |mistake, expression| AddedMistake { name: Some(name.clone()), ..plain(mistake, expression) };
             let is_alike = width >= count && (count > 1 || width == 1);
             if is_sum && is_alike {
                 found.push(named(Operator::AddendLeftOut, between(Binary::Add, bracketed(&fitting))));

@@ -8,12 +8,12 @@ use crate::interpreter::text;
 
 /// Statements as they are met, each with its number: those that another one may stand before.
 #[derive(Default)]
-pub(super) struct Order {
+pub(super) struct StatementOrder {
     last: Option<(usize, Statement)>,
     pub found: Vec<ProgramRepair>,
 }
 
-impl Order {
+impl StatementOrder {
     /// Looks at the next statement. Its number is one more than that of the statement before it, unless that has statements of its own.
     pub fn meet(&mut self, own: &Statement, number: usize) {
         let is_plain = given(own).is_some();
