@@ -22,9 +22,9 @@ pub use serve::{LogFormat, ProcessRole, ServeArguments};
 #[cfg(feature = "watch")]
 pub use watch::WatchArguments;
 
-use crate::diagnose::Hints;
 use crate::language::Language;
 use crate::render::AdapterKind;
+use crate::report::Hints;
 use crate::sandbox::{DEADLINE_SECONDS, IntrusionAttempt, Policy, Settings};
 use clap::{Args, Parser, Subcommand};
 use std::path::PathBuf;

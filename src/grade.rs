@@ -13,14 +13,13 @@ pub use unfinished::{handed_out, solution, sources, unfinished};
 use programs::Programs;
 
 use crate::compare::ExpectedFrame;
-use crate::diagnose::Hints;
 use crate::diagnose::advice::{self, Beyond};
 use crate::diagnostic::{Diagnostic, DiagnosticStage};
 use crate::expected;
 use crate::fault::Fault;
 use crate::hand_in::HandIn;
 use crate::render::{AdapterKind, Device, Frames, RenderScene, Renderer};
-use crate::report::{Environment, Report, SourceInfo, Verdict};
+use crate::report::{Environment, Hints, Report, SourceInfo, Verdict};
 use crate::slots::{self, Trust};
 use crate::translate::{self, LinkedInterface};
 use reference::Assignment;

@@ -17,7 +17,7 @@ use std::time::{Duration, Instant};
 pub const CORES: f64 = 2.0;
 pub const WORKERS: usize = 2;
 /// The seed of a class.
-const ORDER: Order = Order { seed: 1, hints: ggrade::diagnose::Hints::Full, cross_check: false };
+const ORDER: Order = Order { seed: 1, hints: ggrade::report::Hints::Full, cross_check: false };
 /// Set in the process that has the driver's settings.
 const MARK: &str = "GGRADE_BENCH_SETTINGS";
 

@@ -3,8 +3,8 @@
 use super::{MachineArguments, SandboxArguments};
 use crate::batch::shard::Shard;
 use crate::class::formats::ClassFormat;
-use crate::diagnose::Hints;
 use crate::language::Language;
+use crate::report::Hints;
 use crate::sandbox::DEADLINE_SECONDS;
 use clap::{Args, Subcommand};
 use std::path::{Path, PathBuf};

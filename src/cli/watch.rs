@@ -1,8 +1,8 @@
 //! Arguments of `ggrade watch`.
 
 use super::{MachineArguments, SandboxArguments};
-use crate::diagnose::Hints;
 use crate::language::Language;
+use crate::report::Hints;
 use crate::sandbox::DEADLINE_SECONDS;
 use clap::Args;
 use std::path::PathBuf;

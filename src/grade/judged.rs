@@ -2,11 +2,11 @@
 
 use super::{Grader, own_values};
 use crate::compare::{self, COLOUR_TOLERANCE, ExpectedFrame};
-use crate::diagnose::{self, Diagnosis, Evidence, Fresh, Hints, Recorded};
+use crate::diagnose::{self, Diagnosis, Evidence, Fresh, Recorded};
 use crate::diagnostic::Diagnostic;
 use crate::language::Text;
 use crate::render::{Rendering, Sample};
-use crate::report::{AdviceLine, FrameResult, OwnValues, Report, Verdict};
+use crate::report::{AdviceLine, FrameResult, Hints, OwnValues, Report, Verdict};
 use crate::source::Source;
 use crate::translate;
 use reference::Assignment;

@@ -1,10 +1,9 @@
 //! Reports of hand-ins that were not rendered to the end.
 
-use crate::diagnose::Hints;
 use crate::diagnostic::Diagnostic;
 use crate::hand_in::{HandIn, HandedInFile};
 use crate::language::Text;
-use crate::report::{Environment, ProbeResult, Report, RubricLine, SourceInfo, Verdict};
+use crate::report::{Environment, Hints, ProbeResult, Report, RubricLine, SourceInfo, Verdict};
 use crate::slots::{self, Slot, Trust};
 use crate::source;
 use reference::Assignment;

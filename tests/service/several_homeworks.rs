@@ -9,7 +9,7 @@ use crate::codes::Guest;
 use crate::{on_both, right_and_new, sample};
 use axum::body::Body;
 use axum::http::{Request, StatusCode, header};
-use ggrade::diagnose::Hints;
+use ggrade::report::Hints;
 use ggrade::service::Config;
 use ggrade::service::clock::Clock;
 use ggrade::service::store::{NewSubmission, Priority, Via};

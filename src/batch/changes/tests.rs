@@ -11,7 +11,7 @@ fn header(version: &str) -> JournalHeader {
         assignment_digest: String::new(),
         ggrade: version.into(),
         seed: 1,
-        hints: crate::diagnose::Hints::default(),
+        hints: crate::report::Hints::default(),
         deadline: 2.0,
         adapter: "software".into(),
         language: Language::En,

@@ -3,8 +3,8 @@
 use super::body::{RequestForm, unkept};
 use super::refusals::{Errors, NotFound, Refusals};
 use super::schema::{IdempotencyKey, SubmissionJson};
-use crate::diagnose::Hints;
 use crate::language::Language;
+use crate::report::Hints;
 use crate::service::acts::Detail;
 use crate::service::download;
 use crate::service::errors::Problem;

@@ -183,7 +183,7 @@ impl Gathered {
 #[cfg(test)]
 pub(in crate::service) mod samples {
     use super::*;
-    use crate::diagnose::Hints;
+    use crate::report::Hints;
     use crate::report::Verdict;
     use crate::service::store::{HistoryRow, Submission, Via};
 

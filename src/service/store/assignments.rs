@@ -2,7 +2,7 @@
 
 use super::rows::{from_word, word};
 use super::{LateRules, LateSpan, Result, Store, on, signed};
-use crate::diagnose::Hints;
+use crate::report::Hints;
 use crate::service::clock::Millis;
 use crate::service::counting::Counting;
 use serde::{Deserialize, Serialize};

@@ -4,9 +4,8 @@ use super::overrides::rescore;
 use super::queue::{is_among, list};
 use super::rows::{from_word, submission_columns, word};
 use super::{Progress, Result, Store, Submission, on, signed};
-use crate::diagnose::Hints;
 use crate::hand_in::HandIn;
-use crate::report::{Report, Verdict};
+use crate::report::{Hints, Report, Verdict};
 use crate::service::clock::Millis;
 use std::collections::HashMap;
 

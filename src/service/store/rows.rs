@@ -1,7 +1,7 @@
 //! Rows as the rest of the service sees them.
 
-use crate::diagnose::Hints;
 use crate::fault::Fault;
+use crate::report::Hints;
 use crate::service::clock::Millis;
 use serde::{Deserialize, Serialize};
 

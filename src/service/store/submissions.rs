@@ -4,9 +4,8 @@ use super::keys::keep_key;
 use super::rows::{submission_columns, word};
 use super::senders::{HOLD, Sender, TAKE_TURN};
 use super::{Priority, Result, Store, StoredKey, Submission, Via, on, signed};
-use crate::diagnose::Hints;
 use crate::hand_in::{HandIn, HandedInFile};
-use crate::report::{Report, Verdict};
+use crate::report::{Hints, Report, Verdict};
 use crate::service::clock::Millis;
 
 /// A hand-in to be stored.

@@ -2,7 +2,7 @@
 
 use super::super::super::datetime;
 use super::super::super::frame::PageFrame;
-use crate::diagnose::Hints;
+use crate::report::Hints;
 use crate::report::text::number;
 use crate::service::clock::{Millis, local_minute};
 use crate::service::counting::Counting;
