@@ -7,12 +7,12 @@ mod expectation;
 
 pub use expectation::Expectation;
 
-use crate::cross_check::{CrossCheck, Opinion};
 use crate::fault::Fault;
 use crate::grade::Order;
 use crate::hand_in::{HandIn, HandedInFile};
 use crate::language::Text;
 use crate::parallel;
+use crate::report::{CrossCheck, Opinion};
 use crate::sandbox::{GradingTask, Pool};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;

@@ -1,5 +1,6 @@
 //! One [`Report`]; text, JSON, HTML and every exchange format are views of it.
 
+mod cross_check;
 mod difference;
 mod encode;
 mod frame;
@@ -16,12 +17,12 @@ mod sources;
 pub mod text;
 pub(crate) mod wrap;
 
+pub use cross_check::{CrossCheck, Opinion};
 pub use frame::{Area, FrameResult, Picture, Pictures, SILHOUETTE, TermPictures};
 pub use map_lookup::{MapLookup, MapPlace};
 pub use own_values::{OwnValues, ValueAt, ValueLine, ValuePlace};
 pub use sources::SourceInfo;
 
-use crate::cross_check::CrossCheck;
 use crate::diagnostic::Diagnostic;
 use crate::language::{Language, Text};
 use serde::{Deserialize, Serialize};

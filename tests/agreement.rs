@@ -15,8 +15,8 @@ mod programs;
 mod scenes;
 
 use cameras::{poses, with_cameras};
-use ggrade::cross_check::Opinion;
 use ggrade::render::{AdapterKind, Device, Frames, RenderScene, Renderer, Rendering, Sample};
+use ggrade::report::Opinion;
 use ggrade::source::{self, Source};
 use ggrade::translate::{self, LinkedInterface, Shader};
 use glam::DMat4;

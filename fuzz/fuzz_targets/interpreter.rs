@@ -3,8 +3,9 @@
 //! of the driver.
 #![no_main]
 
-use ggrade::cross_check::{self, Opinion};
+use ggrade::cross_check;
 use ggrade::render::{AdapterKind, Device, DrawCall, RenderScene, Renderer};
+use ggrade::report::Opinion;
 use ggrade::source;
 use ggrade::translate;
 use ggrade_fuzz::{INTERFACE, assignment, program};

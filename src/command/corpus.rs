@@ -3,10 +3,10 @@
 use super::{ExitStatus, language, warn};
 use crate::cli::CorpusArguments;
 use crate::corpus::{self, CheckedSample, Expectation};
-use crate::cross_check::Opinion;
 use crate::fault::Fault;
 use crate::language::Language;
 use crate::parallel;
+use crate::report::Opinion;
 use crate::sandbox::{Pool, Settings};
 use reference::Assignment;
 use std::sync::Arc;

@@ -1,7 +1,7 @@
 //! What the driver computed held against what the interpreter does, value by value.
 
-use super::{CrossCheck, Opinion};
 use crate::language::Text;
+use crate::report::{CrossCheck, Opinion};
 use reference::interpreter::{Outputs, Precision, Undefined};
 
 /// Largest difference of a value, relative to it where it is more than 1: x^80 in f32 loses five of seven digits at worst.

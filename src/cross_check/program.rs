@@ -1,9 +1,9 @@
 //! The second opinion on a program with a fragment stage: what it shows at the probes.
 
-use super::CrossCheck;
 use super::compare::{Relation, TOLERANCE, VertexOpinion, summed_up};
 use crate::language::Text;
 use crate::render::Sample;
+use crate::report::CrossCheck;
 use crate::source::Source;
 use reference::Assignment;
 use reference::interpreter::{Program, Stage};

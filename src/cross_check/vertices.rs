@@ -1,8 +1,8 @@
 //! What the driver was given, as the interpreter takes it.
 
-use super::CrossCheck;
 use crate::language::Text;
 use crate::render::DrawCall;
+use crate::report::CrossCheck;
 use reference::assignment::{Input, Interface};
 use reference::interpreter::{Mismatch, Outputs, Precision, Program, Run, Stopped};
 use reference::pipeline::UniformSource;

@@ -2,12 +2,12 @@
 
 use super::judged::JudgedHandIn;
 use super::{Graded, Grader, Order, SeedScene};
-use crate::cross_check::{self, CrossCheck};
+use crate::cross_check;
 use crate::fault::Fault;
 use crate::hand_in::HandedInFile;
 use crate::language::Text;
 use crate::render::{DrawCall, RenderScene, Rendering, Sample};
-use crate::report::{AdviceLine, Report, SourceInfo, Verdict};
+use crate::report::{AdviceLine, CrossCheck, Report, SourceInfo, Verdict};
 use crate::source::{self, ReadProgram, Source};
 use crate::translate::{self, Shader, TranslationRefusal};
 use std::rc::Rc;

@@ -6,9 +6,9 @@ use super::{
     AdviceLine, Comment, Environment, FrameResult, Hints, Lateness, MapLookup, ProbeResult, Repair, Report, RubricLine,
     SourceInfo, Verdict,
 };
-use crate::cross_check::{CrossCheck, Opinion};
 use crate::diagnostic::{Diagnostic, DiagnosticStage, Severity};
 use crate::language::Language;
+use crate::report::{CrossCheck, Opinion};
 use serde::{Serialize, Serializer};
 use values::JsonValues;
 

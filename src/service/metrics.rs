@@ -3,7 +3,7 @@
 use super::Service;
 use super::grading::GradingResult;
 use super::store::{Submission, word};
-use crate::cross_check::Opinion;
+use crate::report::Opinion;
 use metrics::Label;
 use metrics_exporter_prometheus::{PrometheusBuilder, PrometheusHandle};
 use std::sync::OnceLock;

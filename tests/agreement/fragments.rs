@@ -3,8 +3,9 @@
 use super::opengl::{Given, Matrix, OpenGl, Texels, Version};
 use super::programs::{Random, program};
 use super::scenes::homework::texture;
-use ggrade::cross_check::{self, CrossCheck, DriverOutput, Opinion};
+use ggrade::cross_check::{self, DriverOutput};
 use ggrade::language::Text;
+use ggrade::report::{CrossCheck, Opinion};
 use reference::interpreter::{Outputs, Precision, Program, Stage, Texture};
 
 /// How many programs there are.

@@ -1,8 +1,9 @@
 //! Generated programs through the interpreter, through wgpu and through a real OpenGL driver.
 
 use super::{Bench, opengl, poses};
-use ggrade::cross_check::{self, CrossCheck, Opinion};
+use ggrade::cross_check;
 use ggrade::render::{DrawCall, RenderScene, Sample};
+use ggrade::report::{CrossCheck, Opinion};
 use ggrade::source::{self, Source};
 use ggrade::translate::{self, TranslationRefusal};
 use opengl::{Mesh, Vertex};

@@ -1,8 +1,8 @@
 //! Words that depend on what they are said of: a place, a kind, a count.
 
 use super::Labels;
-use crate::cross_check::{CrossCheck, Opinion};
 use crate::diagnostic::{DiagnosticStage, Severity};
+use crate::report::{CrossCheck, Opinion};
 
 impl Labels {
     /// File where it has to be said, line, and column where it is known.

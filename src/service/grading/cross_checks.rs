@@ -4,12 +4,11 @@
 //! draws pictures for who looks at reports, and only when nobody has waited for a grading for a second. What it meets is
 //! the student's text, so it runs in a worker like a grading, under the same deadline.
 
-use crate::cross_check::{CrossCheck, Opinion};
 use crate::fault::Fault;
 use crate::grade::Order;
 use crate::hand_in::HandIn;
 use crate::language::Text;
-use crate::report::Report;
+use crate::report::{CrossCheck, Opinion, Report};
 use crate::sandbox;
 use crate::service::store::{StoreError, Submission, Via, word};
 use crate::service::{Service, State, courses, metrics};

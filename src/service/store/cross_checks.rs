@@ -2,8 +2,7 @@
 //! is shown.
 
 use super::{Result, Store, on};
-use crate::cross_check::CrossCheck;
-use crate::report::Report;
+use crate::report::{CrossCheck, Report};
 
 /// Whether a stored report says that driver and interpreter disagree: the opinion is what its JSON begins with.
 macro_rules! differs {
@@ -47,7 +46,7 @@ impl Store {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cross_check::Opinion;
+    use crate::report::Opinion;
 
     #[test]
     fn an_opinion_is_what_a_stored_report_begins_with() {

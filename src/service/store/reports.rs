@@ -5,8 +5,7 @@ use super::late::lateness;
 use super::rows::{from_word, submission_columns, word};
 use super::senders::{SUSPECT, suspected_until};
 use super::{Result, Store, Submission, on};
-use crate::cross_check::CrossCheck;
-use crate::report::{Lateness, Report, Verdict};
+use crate::report::{CrossCheck, Lateness, Report, Verdict};
 use crate::service::clock::Millis;
 
 /// A submission with its report, where it has one.
