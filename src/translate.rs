@@ -14,7 +14,6 @@ pub mod fuzzing;
 mod gate;
 pub mod hints;
 mod interface;
-pub(crate) mod limits;
 mod log;
 mod module;
 mod old_lookups;

@@ -3,6 +3,8 @@
 //! Source text is handed over as "preprocessed" code: the parser runs the preprocessor itself, so
 //! that line *and* column of a message are those of the student's own text, and one pass is saved.
 
+mod limits;
+
 use glslang_sys as sys;
 pub use reference::interpreter::Stage;
 use std::ffi::{CStr, CString};
@@ -141,7 +143,7 @@ struct GlslangShader {
 impl GlslangShader {
     fn new(rules: GlslangRules, text: &StageText<'_>) -> Self {
         let code: CString = text.text.to_owned();
-        let resource = Box::new(crate::translate::limits::desktop());
+        let resource = Box::new(limits::desktop());
         let spirv = rules == GlslangRules::SpirV;
         let input = Box::new(sys::glslang_input_t {
             language: sys::glslang_source_t::GLSL,

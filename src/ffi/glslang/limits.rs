@@ -4,7 +4,7 @@ use glslang_sys::{glslang_limits_s, glslang_resource_s, glslang_resource_s__bind
 
 /// Limits of a desktop OpenGL 4 driver: what the specification guarantees or more, and where a
 /// vertex shader can read the figure, what Mesa's software driver answers.
-pub(crate) const fn desktop() -> glslang_resource_s {
+pub(super) const fn desktop() -> glslang_resource_s {
     glslang_resource_s {
         max_lights: 8,
         max_clip_planes: 8,
