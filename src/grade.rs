@@ -8,7 +8,7 @@ mod programs;
 mod unfinished;
 mod vertex_shader;
 
-pub use unfinished::{handed_out, solution, sources, unfinished};
+pub use unfinished::{sources, unfinished};
 
 use programs::Programs;
 

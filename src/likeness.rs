@@ -99,7 +99,7 @@ impl Likeness {
 
     /// For answers to this homework.
     pub fn of(assignment: &reference::Assignment) -> Self {
-        let hand_out = crate::grade::handed_out(assignment).readable();
+        let hand_out = crate::slots::handed_out(assignment).readable();
         let accepted = assignment.files.iter().flat_map(|file| {
             let others = file.accepted.iter().filter_map(|answer| assignment.folder.text(&answer.name).ok());
             std::iter::once(file.solution.text.as_str()).chain(others)

@@ -14,9 +14,10 @@ pub(crate) use fit::tells;
 pub use fit::{NameFit, fit};
 pub use reference::assignment::HandedIn as Slot;
 
-use crate::hand_in::HandIn;
+use crate::hand_in::{HandIn, HandedInFile};
 use crate::language::Text;
 use crate::source;
+use reference::Assignment;
 use reference::interpreter::Stage;
 use std::collections::HashSet;
 
@@ -46,7 +47,7 @@ pub trait Offered {
     fn bytes(&self) -> Option<Vec<u8>>;
 }
 
-impl Offered for crate::hand_in::HandedInFile {
+impl Offered for HandedInFile {
     fn name(&self) -> &str {
         &self.name
     }
@@ -253,4 +254,16 @@ fn stage_of(bytes: &[u8]) -> Option<Stage> {
 fn is_colour_output(statement: &str) -> bool {
     let mut words = statement.split(|c: char| !(c.is_ascii_alphanumeric() || c == '_')).filter(|word| !word.is_empty());
     words.any(|word| word == "out") && words.next().is_some_and(|word| word == "vec4" || word == "vec3")
+}
+
+/// The files that the assignment hands out, as if somebody handed them in again.
+pub fn handed_out(assignment: &Assignment) -> HandIn {
+    let file = |slot: &Slot| HandedInFile::new(&slot.name, slot.starter.as_bytes());
+    HandIn { files: assignment.files.iter().map(file).collect() }
+}
+
+/// The assignment's solution, as if somebody handed it in.
+pub fn solution(assignment: &Assignment) -> HandIn {
+    let file = |slot: &Slot| HandedInFile::new(&slot.name, slot.solution_as_written().as_bytes());
+    HandIn { files: assignment.files.iter().map(file).collect() }
 }

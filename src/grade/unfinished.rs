@@ -4,7 +4,7 @@ use crate::diagnostic::Diagnostic;
 use crate::hand_in::{HandIn, HandedInFile};
 use crate::language::Text;
 use crate::report::{Environment, Hints, ProbeResult, Report, RubricLine, SourceInfo, Verdict};
-use crate::slots::{self, Slot, Trust};
+use crate::slots::{self, Trust};
 use crate::source;
 use reference::Assignment;
 use reference::interpreter::Stage;
@@ -86,16 +86,4 @@ fn info(file: &HandedInFile, stage: Option<Stage>) -> SourceInfo {
         bytes: file.bytes.len(),
         encoding: source::encoding(&file.bytes).map_or_else(|| "binary".into(), |encoding| encoding.label().to_owned()),
     }
-}
-
-/// The files that the assignment hands out, as if somebody handed them in again.
-pub fn handed_out(assignment: &Assignment) -> HandIn {
-    let file = |slot: &Slot| HandedInFile::new(&slot.name, slot.starter.as_bytes());
-    HandIn { files: assignment.files.iter().map(file).collect() }
-}
-
-/// The assignment's solution, as if somebody handed it in.
-pub fn solution(assignment: &Assignment) -> HandIn {
-    let file = |slot: &Slot| HandedInFile::new(&slot.name, slot.solution_as_written().as_bytes());
-    HandIn { files: assignment.files.iter().map(file).collect() }
 }

@@ -10,11 +10,12 @@ use super::unpacked::{MOST_BYTES, unpacked};
 use super::{Settings, WorkerLimits};
 use crate::expected;
 use crate::fault::Fault;
-use crate::grade::{self, Grader, Order};
+use crate::grade::{Grader, Order};
 use crate::language::Text;
 use crate::pictures;
 use crate::render::Device;
 use crate::report::Report;
+use crate::slots;
 use reference::{Assignment, Folder};
 use std::sync::Arc;
 use std::time::Duration;
@@ -118,8 +119,8 @@ fn checked(device: &Device, archive: &[u8]) -> Result<(Folder, Report, Report), 
     let (expected, _) = expected::prepared(&assignment, None, None).map_err(why)?;
     let mut grader = Grader::new(device.clone(), Arc::clone(&assignment), expected).map_err(why)?;
     let mut report = |hand_in| grader.grade(&hand_in, Order::default()).map(|graded| graded.report).map_err(why);
-    let solution = report(grade::solution(&assignment))?;
-    let handed_out = report(grade::handed_out(&assignment))?;
+    let solution = report(slots::solution(&assignment))?;
+    let handed_out = report(slots::handed_out(&assignment))?;
     Ok(((*assignment.folder).clone(), solution, handed_out))
 }
 

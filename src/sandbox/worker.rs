@@ -14,6 +14,7 @@ use crate::grade::{self, Graded, Grader, Order};
 use crate::language::Text;
 use crate::render::{AdapterKind, Device, Frames};
 use crate::report::Area;
+use crate::slots;
 use crate::translate;
 use nix::sys::resource::Resource;
 use reference::{Assignment, Folder};
@@ -147,7 +148,7 @@ impl ReadyWorker {
         let assignment = Arc::new(assignment);
         let mut grader = Grader::new(self.device.clone(), Arc::clone(&assignment), expected)?;
         if load.warm_up {
-            grader.grade(&grade::handed_out(&assignment), Order::default())?;
+            grader.grade(&slots::handed_out(&assignment), Order::default())?;
             // A spare may wait for hours, and of several homeworks most do: frames and what the compilers freed are 20 MB.
             grader.put_away();
             allocator::trim();

@@ -11,12 +11,13 @@ use super::list;
 use crate::cli::CheckArguments;
 use crate::command::{ExitStatus, assignment, file_fault, warn, writing};
 use crate::fault::Fault;
-use crate::grade::{self, Order};
+use crate::grade::Order;
 use crate::hand_in::HandIn;
 use crate::language::{Language, Text};
 use crate::pictures::expected_pictures;
 use crate::report::{Picture, Pictures, Report, Verdict, pictures};
 use crate::sandbox::{GradedSubmission, GradingTask, Pool, Settings};
+use crate::slots;
 use reference::Assignment;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -52,14 +53,14 @@ pub(super) fn run(arguments: &CheckArguments, language: Language) -> Result<Exit
         album.put(name, frames)?;
         Ok(report)
     };
-    let solution = grade(&grade::solution(&assignment), "solution")?;
+    let solution = grade(&slots::solution(&assignment), "solution")?;
     let mut is_whole = say_solution(said, &solution);
     #[cfg(feature = "opengl")]
     let is_drawn_alike = opengl::say(said, &arguments.assignment);
     #[cfg(not(feature = "opengl"))]
     let is_drawn_alike = say_no_opengl(said);
     is_whole &= is_drawn_alike;
-    is_whole &= say_starter(said, &grade(&grade::handed_out(&assignment), "handed-out")?);
+    is_whole &= say_starter(said, &grade(&slots::handed_out(&assignment), "handed-out")?);
     is_whole &= shows::say(said, &assignment, &album)?;
     texts::say(said, &assignment);
     is_whole &= texts::say_unfilled(said, &assignment);
