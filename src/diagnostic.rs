@@ -23,9 +23,9 @@ pub enum Severity {
 pub enum DiagnosticStage {
     /// Reading the bytes as text.
     Source,
-    /// Compiling the vertex shader.
+    /// Compiling the shader.
     Compile,
-    /// Linking it with the other stage.
+    /// Linking it with the other stages.
     Link,
     /// Holding its inputs, uniforms and outputs against the assignment.
     Interface,

@@ -53,7 +53,7 @@ impl Verdict {
 /// One line of the rubric with what it earned.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RubricLine {
-    /// Its id: `shape`, `ambient`, `diffuse`, `specular`.
+    /// Its id, as `assignment.toml` has it.
     pub id: String,
     /// Its name in the lecture's words.
     pub label: Text,
@@ -96,7 +96,7 @@ pub struct Hypothesis {
     pub id: String,
     /// Which of its forms, from 0.
     pub form: usize,
-    /// The number that the form leaves open, such as an exponent.
+    /// The number that the form leaves open, as the mistake's `fit` names it.
     pub parameter: Option<f64>,
 }
 
@@ -197,7 +197,7 @@ pub struct Report {
     pub verdict: Verdict,
     /// Sum of the rubric's points.
     pub score: f64,
-    /// Sum of the rubric's possible points: 100.
+    /// Sum of the rubric's possible points.
     pub max_score: f64,
     /// The rubric, line by line.
     pub rubric: Vec<RubricLine>,

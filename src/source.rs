@@ -1,8 +1,8 @@
 //! Untrusted bytes → [`Source`]: size, encoding, line ends, and what a compiler would only stumble over.
 //!
 //! The text keeps the student's own lines: CRLF, CR and LF each end one line, as in an editor, so that every line
-//! number of a later stage is theirs. What can be named better here than by a compiler is named here: a file that is
-//! no vertex shader at all, and characters that look like GLSL and are not.
+//! number of a later stage is theirs. What can be named better here than by a compiler is named here: a file that cannot be
+//! the shader that is asked for, and characters that look like GLSL and are not.
 
 mod comments;
 mod directives;

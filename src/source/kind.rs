@@ -1,5 +1,5 @@
-//! What a file is that is no vertex shader. A wrong refusal is worse than a compiler's puzzled message, so only what
-//! cannot be a vertex shader is refused, and only code outside comments is looked at.
+//! Recognises files that cannot be a shader of the stage that is asked for. A wrong refusal is worse than a compiler's puzzled
+//! message, so only what cannot be one is refused, and only code outside comments is looked at.
 
 mod binary;
 mod prose;

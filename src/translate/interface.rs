@@ -25,7 +25,7 @@ pub struct Variable {
     pub ty: String,
 }
 
-/// The interface between the assignment's program and the student's vertex shader.
+/// The interface between the assignment's program and a stage of it.
 #[derive(Clone, Debug)]
 pub struct LinkedInterface {
     /// The stage that sees it.

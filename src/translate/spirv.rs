@@ -85,7 +85,7 @@ pub(super) struct How<'a> {
 /// - Where asked for, what is undefined becomes a number that shows ([`poison`]).
 /// - `OpUndef` (a path that ends without `return`) becomes a null constant: any value is allowed
 ///   there, and zero is the same each time.
-/// - `OpMemoryBarrier` goes: a vertex shader here shares no memory with anybody.
+/// - `OpMemoryBarrier` goes: a shader here shares no memory with anybody.
 pub(super) fn rework(words: &[u32], how: How<'_>) -> Result<Reworked, Unworkable> {
     let mut code = SpirvCode::parse(words).ok_or(Unworkable::Damaged)?;
     let samplers = if how.has_textures { textures::SamplerTypes::take(&mut code) } else { Default::default() };

@@ -1,4 +1,4 @@
-//! Text files that are no vertex shader.
+//! Recognises text files that are no shader, or a shader of another stage.
 
 use super::looks_like;
 use crate::diagnostic::Diagnostic;
@@ -6,7 +6,7 @@ use crate::language::Text;
 use crate::source::Source;
 use reference::interpreter::Stage;
 
-/// Words that stand in one kind of shader only, and never in a vertex shader.
+/// Words that only shaders of one stage have, other than the vertex stage. Those of the fragment stage come first.
 const OTHER_STAGES: [(&[&str], &str, &str); 4] = [
     (
         &["gl_FragCoord", "gl_FragColor", "gl_FragData", "gl_FragDepth", "discard"],

@@ -22,7 +22,7 @@ pub(super) const MAX_OPERATIONS: u64 = 10_000;
 /// Compiling their initial values takes 0.1 s at this bound.
 pub(super) const MAX_SCALARS: u64 = 16_384;
 
-/// Most bytes of uniforms. OpenGL drivers have at most this much for a vertex shader.
+/// Most bytes of uniforms. OpenGL drivers have at most this much for one stage.
 pub(super) const MAX_UNIFORM_BYTES: u64 = 65_536;
 
 /// Refuses a module that costs too much.

@@ -1,6 +1,6 @@
 //! The look at the compiler's SPIR-V: variables that the homework's program never provides.
 //!
-//! A vertex shader of this homework reads attributes and uniforms. Buffers that shaders write, images, textures and
+//! A stage of a homework reads inputs, uniforms, and textures by samplers. Buffers that shaders write, images, textures and
 //! atomic counters compile on real drivers, but the program binds none, so what a shader makes of them is chance.
 
 use super::bounds::{MAX_SCALARS, MAX_UNIFORM_BYTES, too_many_uniforms, too_much_memory};

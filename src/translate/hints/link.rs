@@ -1,4 +1,4 @@
-//! What the linker says about the vertex shader and the fixed fragment shader.
+//! What the linker says about the stages of a program.
 
 use super::declarations::{DeclarationKind, DeclaredName};
 use super::file::HintContext;

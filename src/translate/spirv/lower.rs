@@ -6,7 +6,7 @@ use std::collections::HashMap;
 
 /// Lowers the functions of `code`.
 pub(super) fn lower(code: &mut SpirvCode) {
-    // A vertex shader here shares no memory with anybody.
+    // A shader here shares no memory with anybody.
     code.functions.retain(|instruction| !matches!(instruction.opcode, op::IMAGE_WRITE | op::MEMORY_BARRIER));
     rewrite(code, lowered);
 }
