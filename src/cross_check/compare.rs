@@ -52,12 +52,12 @@ pub struct DriverOutput<'a> {
 }
 
 /// Compares what the driver computed with what `run` does, which is asked in as many ways of rounding as it takes to tell
-/// what differs from what hangs on rounding.
+/// what differs from what depends on rounding.
 pub fn compare(drawn: &DriverOutput<'_>, run: impl Fn(Precision) -> Result<Outputs, CrossCheck>) -> CrossCheck {
     match run(Precision::Exact).and_then(|exact| Ok((exact, run(Precision::Single)?))) {
         Ok((exact, single)) => {
             let mut judged = judge(drawn, &exact, &single);
-            // What hangs on the last bits of a result, as a sine of a large number does, is no difference.
+            // What depends on the last bits of a result, as a sine of a large number does, is no difference.
             for way in 0..4 {
                 if judged.iter().any(|one| one.relation == Relation::Differs)
                     && let Ok(noisy) = run(Precision::Noisy(way))

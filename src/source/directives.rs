@@ -8,7 +8,7 @@ use std::collections::{HashMap, HashSet};
 pub(super) enum LineState {
     /// It is compiled.
     Compiled,
-    /// That hangs on a condition which only the compiler can decide.
+    /// That depends on a condition which only the compiler can decide.
     Undecided,
     /// It is skipped: `#if 0`, the text of `#error` and `#pragma`, a macro that is never used.
     Skipped,

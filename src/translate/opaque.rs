@@ -1,6 +1,6 @@
 //! Keeps the driver from compiling the shader anew for every draw.
 //!
-//! The software driver looks for branches whose condition hangs on uniforms alone, and for each new value of these
+//! The software driver looks for branches whose condition depends on uniforms alone, and for each new value of these
 //! uniforms compiles a shader of its own in which they are constants. Every batch has its own matrices, so a harmless
 //! `if (mw[3].z < 0.0)` makes fifty compilations of one: measured, 3.5 s for 0.15 s. Such a condition is joined here
 //! with a value from the capture's header that is always true, and of which the driver's compiler knows nothing.
@@ -14,7 +14,7 @@ use naga::{
 };
 use std::collections::{HashMap, HashSet};
 
-/// What a value hangs on; of two operands the greater decides.
+/// What a value depends on; of two operands the greater decides.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum ValueSource {
     Constants,
@@ -24,7 +24,7 @@ enum ValueSource {
     Attributes,
 }
 
-/// Joins the conditions that hang on uniforms alone with a variable that holds 0. Gives the variable, which the entry
+/// Joins the conditions that depend on uniforms alone with a variable that holds 0. Gives the variable, which the entry
 /// point has to fill from the capture's header; none where there is no such condition.
 pub(super) fn hide_conditions(module: &mut Module, io: &[Io]) -> Option<Handle<GlobalVariable>> {
     let u32_type = module.types.insert(Type { name: None, inner: TypeInner::Scalar(Scalar::U32) }, Span::UNDEFINED);
@@ -68,7 +68,7 @@ fn inputs(entry: &Function) -> HashSet<Handle<GlobalVariable>> {
     copied.collect()
 }
 
-/// What each expression of the function hangs on.
+/// What each expression of the function depends on.
 fn sources(function: &Function, inputs: &HashSet<Handle<GlobalVariable>>) -> Vec<ValueSource> {
     let mut locals: HashMap<Handle<LocalVariable>, ValueSource> = HashMap::new();
     loop {

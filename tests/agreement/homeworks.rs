@@ -14,7 +14,7 @@ use std::sync::Arc;
 
 /// Largest difference of a channel between the drivers, in 1/255.
 const DRIVER_TOLERANCE: u8 = 1;
-/// One of so many pixels may differ more between the drivers: those at which the nearest texel hangs on a last bit.
+/// One of so many pixels may differ more between the drivers: those at which the nearest texel depends on a last bit.
 const DOUBTFUL: usize = 500;
 
 /// Pixels of all frames: how many are painted, how many differ between the drivers, and how many of those that are no

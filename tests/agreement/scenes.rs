@@ -12,7 +12,7 @@ use reference::interpreter::{Scalar, Type};
 
 /// Largest difference of a channel, in 1/255: rounding at .5.
 const PIXEL_TOLERANCE: f32 = 1.01 / 255.0;
-/// Share of the pixels that may differ more: those at which a decision hangs on the last bit of an interpolated value.
+/// Share of the pixels that may differ more: those at which a decision depends on the last bit of an interpolated value.
 const DOUBTFUL: usize = 500;
 /// The same for numbers that are computed from the same inputs.
 const NUMBER_TOLERANCE: f32 = 1e-4;

@@ -39,7 +39,7 @@ impl Assignment {
         ProbeGroup { matrices, t, uniforms, pass: moment.pass, window: moment.resolution }
     }
 
-    /// The number of what is drawn, where a uniform hangs on it.
+    /// The number of what is drawn, where a uniform depends on it.
     fn random_draw(&self, random: &mut Random, moment: &Moment) -> u32 {
         let count = self.scene.count_of_draws();
         let follows = |uniform: &Uniform| {

@@ -1,7 +1,7 @@
 //! Probes of a program with a fragment stage: one fragment each, somewhere within a triangle.
 //!
 //! The corners are vertices of what the homework draws, moved and turned a little together, so that what is interpolated
-//! between them is like what the homework's own fragments are given. Where a colour hangs on the last bits of what it is
+//! between them is like what the homework's own fragments are given. Where a colour depends on the last bits of what it is
 //! computed from, at the edge of a step, no fragment is probed: there a right answer may have another one.
 
 mod across;

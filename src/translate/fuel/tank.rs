@@ -9,7 +9,7 @@ use naga::{BinaryOperator, Expression, Handle, LocalVariable};
 /// `capture` is the buffer, `turns` a variable.
 ///
 /// A driver that has cut a loop leaves every later one after its first turn. So a loop of two turns tells: its length
-/// hangs on the header, which is 0 and which the driver's compiler does not know.
+/// depends on the header, which is 0 and which the driver's compiler does not know.
 pub(in crate::translate) fn run(
     build: &mut Build<'_>,
     gauge: &Gauge,

@@ -8,7 +8,7 @@ pub enum Precision {
     /// After each operation to 32 bits, as a driver does that follows IEEE 754.
     Single,
     /// To a float near by where the result is none, in one of four ways, and to 0 below the least normal float, as a
-    /// driver may: a value that this moves hangs on how a driver rounds, or approximates a sine.
+    /// driver may: a value that this moves depends on how a driver rounds, or approximates a sine.
     Noisy(u8),
 }
 

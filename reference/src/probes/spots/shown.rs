@@ -14,7 +14,7 @@ use glam::{DVec3, DVec4};
 /// stage before.
 const MOVED: f64 = 1e-5;
 
-/// The pixels beside are moved by so much less, in some of the ways, so that what hangs on the last bits of a derivative is seen. Noise:
+/// The pixels beside are moved by so much less, in some of the ways, so that what depends on the last bits of a derivative is seen. Noise:
 /// 1e-7, the rounding of what is interpolated; a pixel is some hundredths wide.
 const MOVED_APART: f64 = 1e-6;
 
