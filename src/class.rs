@@ -49,7 +49,7 @@ pub struct ClassEntry {
     pub outcome: Outcome,
     /// The files that can be read as text.
     pub sources: Vec<Source>,
-    /// A small PNG of what the shader draws, at the class's pose; none where nothing was drawn.
+    /// A small PNG of what the shader draws, at the class's pose; `None` where nothing was drawn.
     pub portrait: Option<Vec<u8>>,
     /// The full report as a self-contained HTML page, on disk.
     pub page: Option<PathBuf>,

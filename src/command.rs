@@ -101,7 +101,7 @@ fn file_fault(action: &Text, path: &Path, error: &std::io::Error) -> Fault {
     ))
 }
 
-/// The assignment that is asked for; none where there is no such assignment, which is told.
+/// The assignment that is asked for; `None` where there is no such assignment, which is told.
 fn assignment(asked: Option<&str>, files: &[PathBuf], language: Language) -> Option<Arc<Assignment>> {
     let chosen = choice::assignment(asked, files);
     let told = |text: &Text| anstream::eprintln!("ggrade: {}", text.get(language));
@@ -110,7 +110,7 @@ fn assignment(asked: Option<&str>, files: &[PathBuf], language: Language) -> Opt
     Some(choice.assignment)
 }
 
-/// The time that a grading may take; none for a number that is none.
+/// The time that a grading may take; `None` for a number that is no duration.
 fn deadline(seconds: f64, language: Language) -> Option<Duration> {
     let deadline = Duration::try_from_secs_f64(seconds).ok().filter(|duration| !duration.is_zero());
     if deadline.is_none() {

@@ -128,7 +128,7 @@ pub fn wrong_pixels(expected: &ExpectedFrame, candidate: &Frames, index: u32) ->
     all.into_iter().map(|one| one.is_some_and(|difference| difference > PIXEL_TOLERANCE)).collect()
 }
 
-/// For each pixel of a frame, row by row from above, the largest difference of a channel; none where it is not judged.
+/// For each pixel of a frame, row by row from above, the largest difference of a channel; `None` where it is not judged.
 pub fn differences(expected: &ExpectedFrame, candidate: &Frames, index: u32) -> Vec<Option<u8>> {
     let drawn = candidate.picture(index);
     let width = expected.width as usize;
@@ -145,7 +145,7 @@ pub fn differences(expected: &ExpectedFrame, candidate: &Frames, index: u32) -> 
     differences
 }
 
-/// The pixel that is farthest from all that are not wrong, in steps along rows and columns; none where none is.
+/// The pixel that is farthest from all that are not wrong, in steps along rows and columns; `None` where no pixel is wrong.
 pub fn innermost(wrong: &[bool], width: u32) -> Option<[u32; 2]> {
     let width = width.max(1) as usize;
     let mut steps: Vec<u32> = wrong.iter().map(|wrong| if *wrong { u32::MAX } else { 0 }).collect();

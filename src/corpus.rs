@@ -28,7 +28,7 @@ const EXPECTED: &str = "json";
 pub struct CheckedSample {
     /// The sample.
     pub sample: PathBuf,
-    /// What is expected of it; none where the file is missing.
+    /// What is expected of it; `None` where the file is missing.
     pub expected: Option<Expectation>,
     /// What was found, or why nothing was.
     pub found: Result<Expectation, Fault>,

@@ -52,11 +52,11 @@ pub struct Evidence<'a> {
     pub samples: &'a [Sample],
     /// Those that nobody knows beforehand.
     pub fresh: Fresh<'a>,
-    /// Rows of probes across edges, and what the shader computed there; none where the homework does not judge by them.
+    /// Rows of probes across edges, and what the shader computed there; `None` where the homework does not judge by them.
     pub across: Option<(&'a Crossings, &'a [Sample])>,
     /// The line where a negative number was raised to a power, where one was.
     pub undefined: Option<u32>,
-    /// The program, to be run step by step; none where it has something that the interpreter does not know.
+    /// The program, to be run step by step; `None` where it has something that the interpreter does not know.
     pub traced: Option<&'a TracedProgram>,
     /// What it computes at some of the probes, beside what the right answer computes.
     pub recorded: &'a Recorded,
@@ -153,7 +153,7 @@ pub fn diagnose(evidence: &Evidence<'_>) -> Diagnosis {
     }
 }
 
-/// The diagnosis of an answer that agrees everywhere; none of any other, without a search for mistakes.
+/// The diagnosis of an answer that agrees everywhere; `None` for any other, without a search for mistakes.
 pub fn agreement(evidence: &Evidence<'_>) -> Option<Diagnosis> {
     let agrees = evidence.frames.iter().all(FrameResult::agrees) && agrees_at_probes(evidence);
     agrees.then(|| diagnose(evidence)).filter(|diagnosis| diagnosis.is_right)

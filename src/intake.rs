@@ -46,7 +46,7 @@ pub struct StudentWork {
 }
 
 impl StudentWork {
-    /// Where the files were, in one line; none without files.
+    /// Where the files were, in one line; `None` without files.
     pub fn path(&self) -> Option<String> {
         match &self.content {
             HandInContent::Files { places, .. } => FileLocation::joined(places),

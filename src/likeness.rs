@@ -52,7 +52,7 @@ pub struct Likeness {
 pub struct Answer {
     /// In the order of the text.
     passages: Vec<Passage>,
-    /// Digest of the whole text with its comments, white space aside; none where hardly anything was added.
+    /// Digest of the whole text with its comments, white space aside; `None` where hardly anything was added.
     text: Option<[u8; 32]>,
     /// Digest of the tokens that are not the hand-out's; none likewise.
     tokens: Option<[u8; 32]>,

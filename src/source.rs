@@ -125,7 +125,7 @@ impl HandIn {
     }
 }
 
-/// A file as text, also where it is refused; none where it cannot be read as text.
+/// A file as text, also where it is refused; `None` where it cannot be read as text.
 pub fn readable(file: &HandedInFile) -> Option<Source> {
     match read(&file.name, &file.bytes) {
         Ok(source) => Some(source),
@@ -133,7 +133,7 @@ pub fn readable(file: &HandedInFile) -> Option<Source> {
     }
 }
 
-/// The encoding that a file is read in; none where it cannot be read as text.
+/// The encoding that a file is read in; `None` where it cannot be read as text.
 pub fn encoding(bytes: &[u8]) -> Option<Encoding> {
     decode(bytes).ok().map(|decoded| decoded.encoding)
 }
@@ -158,7 +158,7 @@ fn of_stage(stage: Stage, refusal: Diagnostic) -> Diagnostic {
     }
 }
 
-/// The text of a file with its comments blanked, whatever it is; none where it cannot be read as text.
+/// The text of a file with its comments blanked, whatever it is; `None` where it cannot be read as text.
 pub fn code(bytes: &[u8]) -> Option<String> {
     let text = decode(bytes).ok()?.text;
     Some(comments::blank(&text, &comments::find(&text)))

@@ -24,7 +24,7 @@ pub enum Reads {
 }
 
 impl Reads {
-    /// The stage whose definitions the solution consists of; none where it is known by what it shows.
+    /// The stage whose definitions the solution consists of; `None` where it is known by what it shows.
     pub const fn stage(self) -> Option<Stage> {
         match self {
             Self::Attributes => Some(Stage::Vertex),
@@ -55,7 +55,7 @@ pub struct Equation {
     pub(crate) sheet: Arc<Sheet>,
     /// The cells of the assignment's constants, in its order, and their values; no cell where all is read from outputs.
     pub(crate) constants: Vec<(Option<usize>, Value)>,
-    /// The cells of the uniforms, in the interface's order; none of one that the solution does not have.
+    /// The cells of the uniforms, in the interface's order; `None` for one that the solution does not have.
     pub(crate) uniforms: Vec<Option<usize>>,
     /// The cells of what it reads: of the vertex attributes in the interface's order, of the fragment stage's inputs in the
     /// program's, or of colour and position.

@@ -35,7 +35,7 @@ pub struct FeatureValue {
 
 impl Assignment {
     /// The value that is missing in the solution without what a line of the rubric judges, and what is there instead: the solution
-    /// with the one and with the other. None where what is replaced is no value by itself.
+    /// with the one and with the other. `None` where what is replaced is no value by itself.
     pub fn feature_values(&self, line: usize) -> Option<[FeatureValue; 2]> {
         let Some(Feature::Program(program)) = self.features.get(line)? else { return None };
         let [[text, instead]] = program.replaced.as_slice() else { return None };

@@ -67,7 +67,7 @@ pub struct ProgramListing {
 /// Why a program cannot be read.
 #[derive(Clone, Debug, PartialEq)]
 pub struct UnreadableProgram {
-    /// The line that is at fault, from 1; none where something is missing.
+    /// The line that is at fault, from 1; `None` where something is missing.
     pub line: Option<u32>,
     /// What is wrong.
     pub message: Text,

@@ -232,7 +232,7 @@ impl Program {
         Nature::of(&self.code)
     }
 
-    /// For each scalar of its outputs the scalar of an input that it is a copy of; none where it computes anything.
+    /// For each scalar of its outputs the scalar of an input that it is a copy of; `None` where it computes anything.
     pub fn copies(&self) -> Option<Vec<Vec<Copied>>> {
         nature::copies(&self.code)
     }

@@ -28,7 +28,7 @@ pub struct Page {
 }
 
 impl Page {
-    /// What a page adds to this text; none where it is a shader by itself.
+    /// What a page adds to this text; `None` where it is a shader by itself.
     pub fn of(text: &str) -> Option<Self> {
         let functions = outline::functions(text);
         let has = |wanted: &str| functions.iter().any(|function| function.name.text == wanted);

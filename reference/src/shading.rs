@@ -184,7 +184,7 @@ impl Scenery<'_> {
         (0..fragments.len()).map(shaded).collect()
     }
 
-    /// What the fragment stage writes, and where it looks textures up, if that is noted; none where it cannot be run.
+    /// What the fragment stage writes, and where it looks textures up, if that is noted; `None` where it cannot be run.
     fn outputs(
         &self,
         visible: &Visible,
@@ -217,7 +217,7 @@ impl Scenery<'_> {
         all.filter(|one| one.sample == place).collect()
     }
 
-    /// Why a colour is undefined among those that are seen before anything is thrown away; none where all are defined.
+    /// Why a colour is undefined among those that are seen before anything is thrown away; `None` where all are defined.
     pub fn undefined(&self, visible: &Visible) -> Option<UndefinedCause> {
         let all = self.fragments(visible, &self.covered(visible));
         let mut chunks =

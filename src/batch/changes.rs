@@ -76,7 +76,7 @@ pub struct GradeSummary {
 pub struct LineChange {
     /// Its id.
     pub id: String,
-    /// The earlier points and mistake; none where there was no such line.
+    /// The earlier points and mistake; `None` where there was no such line.
     pub before: Option<EarnedPoints>,
     /// These points and mistake.
     pub after: Option<EarnedPoints>,

@@ -55,7 +55,7 @@ pub struct JournalHeader {
     pub language: Language,
     /// Whether names are pseudonyms.
     pub anonymous: bool,
-    /// Which part of the class this is; none for all of it.
+    /// Which part of the class this is; `None` for all of it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shard: Option<Shard>,
 }
@@ -65,9 +65,9 @@ pub struct JournalHeader {
 pub struct JournalRecord {
     /// Who.
     pub student: Student,
-    /// Where the files were; none where there were none.
+    /// Where the files were; `None` where there were none.
     pub path: Option<String>,
-    /// The digest of the hand-in in hexadecimal; none where there was none.
+    /// The digest of the hand-in in hexadecimal; `None` where there was none.
     pub sha256: Option<String>,
     /// What became of it, with the report in both languages.
     pub outcome: Outcome,

@@ -38,7 +38,7 @@ impl From<Fault> for NotBegun {
     }
 }
 
-/// The earlier results that this run goes on from; none where it begins anew.
+/// The earlier results that this run goes on from; `None` where it begins anew.
 pub fn earlier(folder: &OutputFolder, shown: &Path, mode: ResumeMode) -> Result<Option<FoundJournal>, NotBegun> {
     let path = folder.at(journal::NAME);
     match (journal::read(&path), mode) {

@@ -20,7 +20,7 @@ use std::sync::{Mutex, PoisonError};
 pub struct ClassRun<'a> {
     /// What is graded.
     pub assignment: &'a Assignment,
-    /// Who grades; none where there is no file to grade.
+    /// Who grades; `None` where there is no file to grade.
     pub pool: Option<&'a Pool>,
     /// How.
     pub order: Order,

@@ -83,7 +83,7 @@ impl OutputFolder {
         Ok(result)
     }
 
-    /// The bytes of a file; none where it is not there.
+    /// The bytes of a file; `None` where it is not there.
     pub fn read(&self, name: &str) -> Result<Option<Vec<u8>>, Fault> {
         match fs::read(self.at(name)) {
             Ok(bytes) => Ok(Some(bytes)),

@@ -28,7 +28,7 @@ impl Portraits {
         Ok(Self { pose, expected: pictures::png(&reduced(&right))? })
     }
 
-    /// The portrait in the frames of all poses; none where there are none. Gradings that share their frames have one portrait.
+    /// The portrait in the frames of all poses; `None` where there are none. Gradings that share their frames have one portrait.
     pub fn of(&self, frames: &Arc<[Picture]>) -> Result<Option<Vec<u8>>, Fault> {
         static MADE: PictureCache<[Picture], usize, Vec<u8>> = PictureCache::new();
         let Some(frame) = frames.get(self.pose) else { return Ok(None) };

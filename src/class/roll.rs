@@ -16,7 +16,7 @@ use std::path::PathBuf;
 pub struct GradingCandidate {
     /// Who handed in what.
     pub hand_in: StudentWork,
-    /// The hand-in's digest in hexadecimal; none where there is nothing to grade.
+    /// The hand-in's digest in hexadecimal; `None` where there is nothing to grade.
     pub sha256: Option<String>,
     /// The files that can be read as text.
     pub sources: Vec<Source>,
@@ -93,7 +93,7 @@ impl GradingCandidate {
         }
     }
 
-    /// What is graded; none where there is nothing.
+    /// What is graded; `None` where there is nothing.
     pub fn files(&self) -> Option<&HandIn> {
         match &self.hand_in.content {
             intake::HandInContent::Files { hand_in, .. } => Some(hand_in),

@@ -34,7 +34,7 @@ pub struct Averages {
     pub median: f64,
 }
 
-/// Mean and median of the scores; none where nobody was graded.
+/// Mean and median of the scores; `None` where nobody was graded.
 pub fn averages(class: &Class) -> Option<Averages> {
     let mut scores: Vec<f64> = class.entries.iter().filter_map(ClassEntry::report).map(Report::total).collect();
     scores.sort_by(f64::total_cmp);

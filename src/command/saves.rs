@@ -42,7 +42,7 @@ pub(super) struct Saves {
     name: String,
     seen: Option<SavedFiles>,
     changed: Arc<Notify>,
-    /// Tells of changes for as long as it is there; none where the system cannot.
+    /// Tells of changes for as long as it is there; `None` where the system cannot.
     _watcher: Option<notify::RecommendedWatcher>,
 }
 
@@ -153,7 +153,7 @@ impl Saves {
     }
 }
 
-/// The files in a folder, in a stable order; none of what is no folder.
+/// The files in a folder, in a stable order; `None` for what is no folder.
 fn in_folder(folder: &Path, depth: RecursiveMode) -> Option<Vec<PathBuf>> {
     // Editors keep files of their own beside those that they write.
     let is_own = |path: &PathBuf| {

@@ -109,7 +109,7 @@ pub(super) fn is_finite_nowhere(evidence: &Evidence<'_>) -> bool {
     colours.is_some_and(|seen| !seen.colours.iter().any(|colour| colour.is_finite()))
 }
 
-/// The program at some probes; none where it is known by no definitions.
+/// The program at some probes; `None` where it is known by no definitions.
 fn bench<'p>(evidence: &Evidence<'p>, places: &[Place<'p>]) -> Option<Bench<'p>> {
     let assignment = evidence.assignment;
     let program = evidence.traced.filter(|_| assignment.equation.reads().stage().is_some())?;

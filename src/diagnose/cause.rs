@@ -73,7 +73,7 @@ pub(super) enum Cause {
     },
 }
 
-/// The homework with the student's own constants; none where no definitions are made of them.
+/// The homework with the student's own constants; `None` where no definitions are made of them.
 fn with_constants(assignment: &Assignment, constants: &[ChangedConstant]) -> Option<Assignment> {
     if assignment.equation.reads() == Reads::Outputs {
         return None;

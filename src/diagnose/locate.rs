@@ -30,7 +30,7 @@ pub(super) struct Located {
     pub name: Option<String>,
     /// What the value is to the colour.
     pub role: MistakeOrigin,
-    /// The stage whose text it is; none where there is only one.
+    /// The stage whose text it is; `None` where there is only one.
     pub stage: Option<Stage>,
 }
 

@@ -24,7 +24,7 @@ pub(super) struct Extended {
 }
 
 impl Extended {
-    /// None where the files add nothing, or where it is not known what they do.
+    /// `None` where the files add nothing, or where it is not known what they do.
     pub fn of(assignment: &Assignment, probes: &ProbeSet, sources: &[(Stage, &Source)]) -> Result<Option<Self>, Fault> {
         if assignment.free.is_empty() {
             return Ok(None);

@@ -13,7 +13,7 @@ use std::sync::Arc;
 /// So many lookups of a pixel are told: a kernel of 7 × 7.
 const MOST_PLACES: usize = 49;
 
-/// What the files look up in the frame with the most wrong pixels. None where no map is drawn, nothing is wrong, or the files look no
+/// What the files look up in the frame with the most wrong pixels. `None` where no map is drawn, nothing is wrong, or the files look no
 /// map up there and a right answer does not either.
 pub(super) fn of(
     assignment: &Assignment,

@@ -28,7 +28,7 @@ pub(super) struct Programs {
 }
 
 impl Programs {
-    /// None for homework of one vertex shader that is a list of definitions: that goes a shorter way.
+    /// `None` for homework of one vertex shader that is a list of definitions: that goes a shorter way.
     pub fn of(assignment: &Assignment) -> Result<Option<Self>, Fault> {
         if assignment.equation.reads() == Reads::Attributes {
             return Ok(None);

@@ -22,7 +22,7 @@ pub(super) struct Marked<'a> {
     pub participant: Participant,
     /// The way of handing in: `file`, `onlinetext`.
     pub plugin: &'a str,
-    /// The student's own file name; none for a folder.
+    /// The student's own file name; `None` for a folder.
     pub file_name: Option<&'a str>,
 }
 

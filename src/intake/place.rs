@@ -40,7 +40,7 @@ pub(super) fn below(path: String, input: &str) -> String {
     }
 }
 
-/// A file by its path from the working folder on, as CI finds it; none where it is not below that.
+/// A file by its path from the working folder on, as CI finds it; `None` where it is not below that.
 pub fn in_working_folder(path: &Path) -> Option<PathBuf> {
     // Whoever works in `/` works nowhere in particular: from there a path is that of the machine.
     let folder = std::env::current_dir().ok().filter(|folder| folder.parent().is_some())?;

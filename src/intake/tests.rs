@@ -79,7 +79,7 @@ fn refused(intake: &Intake) -> Vec<(&str, &str)> {
     intake.refused.iter().map(|refused| (refused.path.as_str(), refused.reason.en.as_str())).collect()
 }
 
-/// The reason why the file of this name was refused; none where it was not.
+/// The reason why the file of this name was refused; `None` where it was not.
 fn reason<'a>(intake: &'a Intake, name: &str) -> Option<&'a str> {
     let found = intake.refused.iter().find(|refused| refused.path.ends_with(name))?;
     assert!(!found.reason.ja.is_empty());

@@ -48,7 +48,7 @@ pub struct FileLocation {
 }
 
 impl FileLocation {
-    /// Several places in one line; none where there is none.
+    /// Several places in one line; `None` where there is none.
     pub fn joined(places: &[Self]) -> Option<String> {
         let paths: Vec<&str> = places.iter().map(|place| place.path.as_str()).collect();
         (!paths.is_empty()).then(|| paths.join(", "))

@@ -92,7 +92,7 @@ impl<'a> Terms<'a> {
         self.assignment.term_frame(pose, &self.assignment.equation.right(), &line.judges).map(|frame| picture(&frame))
     }
 
-    /// A term as the submission computes it; none where that is not known.
+    /// A term as the submission computes it; `None` where that is not known.
     pub fn yours(&self, scene: &TermScene<'_>) -> Option<Picture> {
         let TermScene { line, pose, is_same } = scene;
         if (*is_same)? {

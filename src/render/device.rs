@@ -95,7 +95,7 @@ impl AdapterKind {
     }
 }
 
-/// What to do where the loader was told of drivers that are not there; none where it was told of none.
+/// What to do where the loader was told of drivers that are not there; `None` where it was not told of any.
 fn lost_descriptions() -> Option<Text> {
     let (name, paths) = ["VK_DRIVER_FILES", "VK_ICD_FILENAMES"]
         .iter()

@@ -31,13 +31,13 @@ impl FrameResult {
         if self.coverage_mismatches > 0 { 255.0 } else { self.max_difference }
     }
 
-    /// In how many frames pixels are painted in one picture alone, and the most of these in a frame; none where there are none.
+    /// In how many frames pixels are painted in one picture alone, and the most of these in a frame; `None` where there are none.
     pub fn shape_mismatches(frames: &[Self]) -> Option<(usize, u32)> {
         let each = || frames.iter().map(|frame| frame.coverage_mismatches).filter(|count| *count > 0);
         Some((each().count(), each().max()?))
     }
 
-    /// The frame that differs most, of equals the first; none where all agree.
+    /// The frame that differs most, of equals the first; `None` where all agree.
     pub fn differs_most(frames: &[Self]) -> Option<usize> {
         let off = |frame: &Self| (frame.largest_difference(), frame.coverage_mismatches + frame.mismatched_pixels);
         let differing = frames.iter().enumerate().rev().filter(|(_, frame)| !frame.agrees());
@@ -71,7 +71,7 @@ impl Area {
         Self { x: 0, y: 0, width, height }
     }
 
-    /// How many pixels it has; none where a picture of this size does not hold it.
+    /// How many pixels it has; `None` where a picture of this size does not hold it.
     pub fn pixels_within(self, width: u32, height: u32) -> Option<usize> {
         let is_inside = self.x.checked_add(self.width)? <= width && self.y.checked_add(self.height)? <= height;
         is_inside.then(|| self.width as usize * self.height as usize)

@@ -7,7 +7,7 @@ use crate::diagnostic::Severity;
 use crate::language::Language;
 
 impl Labels {
-    /// What to do first; none when nothing is left to do.
+    /// What to do first; `None` when nothing is left to do.
     pub fn next_step(&self, report: &Report, language: Language) -> Option<String> {
         match report.verdict {
             Verdict::Correct => None,

@@ -230,7 +230,7 @@ impl Worker {
         Err(if is_drawn { ending.while_judging() } else { ending })
     }
 
-    /// How the process ended; none where it has not.
+    /// How the process ended; `None` where it has not.
     fn died(&mut self) -> Option<ExitStatus> {
         let end = Instant::now() + DYING;
         loop {

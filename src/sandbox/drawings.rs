@@ -17,7 +17,7 @@ pub(super) struct Drawings {
 }
 
 impl Drawings {
-    /// The frames of a scene of which `body` has the pixels, area by area; none where they do not fit.
+    /// The frames of a scene of which `body` has the pixels, area by area; `None` where they do not fit.
     pub fn of(&self, scene: &Scene, areas: &[Area], body: &[u8]) -> Option<Arc<[Picture]>> {
         let mut rest = body;
         let mut parts = Vec::with_capacity(areas.len());

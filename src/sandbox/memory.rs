@@ -22,7 +22,7 @@ pub(super) enum Phase {
     Grading(u64),
 }
 
-/// The fault where too little memory is why something failed, which `detail` tells; none where there is enough.
+/// The fault where too little memory is why something failed, which `detail` tells; `None` where there is enough.
 pub(super) fn shortage(adapter: AdapterKind, phase: Phase, detail: &Text) -> Option<Fault> {
     (adapter == AdapterKind::Software).then(|| shortage_within(limit()?, phase, detail)).flatten()
 }
@@ -35,7 +35,7 @@ fn shortage_within(limit: u64, phase: Phase, detail: &Text) -> Option<Fault> {
     (limit < WORKER + file).then(|| too_little(limit, detail))
 }
 
-/// The least of the bounds that are set on the memory of this process; none where none is.
+/// The least of the bounds that are set on the memory of this process; `None` where no bound is set.
 fn limit() -> Option<u64> {
     // A worker takes all of the first that it may; the second it leaves as it is.
     let space = getrlimit(Resource::RLIMIT_AS).map(|(_, hard)| hard);

@@ -70,7 +70,7 @@ impl Protection {
         self.open.is_empty()
     }
 
-    /// What is missing, in one sentence; none where nothing is.
+    /// What is missing, in one sentence; `None` where nothing is missing.
     pub fn notice(&self) -> Option<Text> {
         let missing: Vec<_> = self.layers.iter().filter(|state| !state.holds).map(|state| state.layer.name()).collect();
         let open: Vec<_> = self.open.iter().map(|reach| reach.name()).collect();

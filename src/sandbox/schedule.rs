@@ -59,7 +59,7 @@ impl Allowance {
     }
 
     /// Until when to wait for a worker that has not answered by the end: until it has had as much of a processor. That others keep
-    /// the machine busy is not the file's doing. None where it has had that, or does not want it.
+    /// the machine busy is not the file's doing. `None` where it has had that, or does not want it.
     pub fn later(&self) -> Option<Instant> {
         let states = thread_states(self.process);
         let wants_processor = states.iter().any(|state| matches!(state, 'R' | 'D'));

@@ -60,7 +60,7 @@ pub(super) struct Gauge {
 }
 
 /// Has every loop of the module take fuel. Gives the loops, in the order in which [`Gauge::ran_out`] numbers them, and
-/// the counters; none where there is no loop.
+/// the counters; `None` where there is no loop.
 ///
 /// `words` are those that the module was made from, with their lines.
 pub(super) fn meter(

@@ -25,7 +25,7 @@ struct OldLookup<'a> {
     /// The byte that it stands at.
     at: usize,
     word: &'a str,
-    /// How many arguments it is given; none where its parentheses do not end.
+    /// How many arguments it is given; `None` where its parentheses do not end.
     arguments: Option<usize>,
 }
 
@@ -63,7 +63,7 @@ impl<'a> OldLookup<'a> {
         self.word.starts_with("shadow")
     }
 
-    /// The lookup of today that it is; none where there is none of the same kind.
+    /// The lookup of today that it is; `None` where there is none of the same kind.
     fn of_today(&self) -> Option<&'static str> {
         lookup_of_today(self.word)
     }

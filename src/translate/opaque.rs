@@ -25,7 +25,7 @@ enum ValueSource {
 }
 
 /// Joins the conditions that depend on uniforms alone with a variable that holds 0. Gives the variable, which the entry
-/// point has to fill from the capture's header; none where there is no such condition.
+/// point has to fill from the capture's header; `None` where there is no such condition.
 pub(super) fn hide_conditions(module: &mut Module, io: &[Io]) -> Option<Handle<GlobalVariable>> {
     let u32_type = module.types.insert(Type { name: None, inner: TypeInner::Scalar(Scalar::U32) }, Span::UNDEFINED);
     let mut inputs = inputs(&module.entry_points[0].function);

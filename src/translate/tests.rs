@@ -188,7 +188,7 @@ fn program(vertex: Option<&str>) -> HomeworkProgram {
     HomeworkProgram::new(interface, vertex.map(|text| (Stage::Vertex, text))).expect("the fixed stage is right")
 }
 
-/// Line and message of the first error of these stages; none where they are taken.
+/// Line and message of the first error of these stages; `None` where they are taken.
 fn refused(program: &HomeworkProgram, texts: &[(Stage, &str)]) -> Option<(Stage, Option<u32>, String)> {
     let read = |(stage, text): &(Stage, &str)| source::read_stage(*stage, "a", text.as_bytes()).expect("a text");
     let sources: Vec<_> = texts.iter().map(read).collect();

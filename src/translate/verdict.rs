@@ -123,7 +123,7 @@ pub(super) fn compiled<'a>(texts: impl Iterator<Item = StageText<'a>>, fixed: &[
 }
 
 /// The verdict without `#line`: with it the compiler counts as the student tells it to, and a person counts lines of the
-/// file. None where no text has it.
+/// file. `None` where no text has it.
 fn plainly(submitted: &[Submitted<'_>], fixed: &[StageText<'_>]) -> Option<CompilerOutput> {
     let plain: Vec<_> = submitted.iter().map(|one| hints::without_line_directives(&one.text)).collect();
     plain.iter().any(Option::is_some).then(|| {

@@ -21,7 +21,7 @@ const SOME: f64 = 1.737;
 
 /// What a form computes at the first places.
 struct Known<'a> {
-    /// None for what is right.
+    /// `None` for what is right.
     form: Option<&'a MistakeForm>,
     colours: Vec<DVec3>,
     /// At all of them, once it was asked for: where little is lit, the first places tell little.

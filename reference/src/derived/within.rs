@@ -229,7 +229,7 @@ impl Derived {
         Some(self.assignment.computed_by(&AcceptedAnswer::new("", pipeline), probes))
     }
 
-    /// The texts of the solution without two features; none where the text of the second is gone with the first.
+    /// The texts of the solution without two features; `None` where the text of the second is gone with the first.
     fn without_both(&self, first: &AcceptedAnswer, second: &AcceptedAnswer) -> Option<Vec<String>> {
         let mut texts = first.texts.clone();
         for [own, instead] in &second.replaced {

@@ -43,7 +43,7 @@ impl<'a> Alternatives<'a> {
         })
     }
 
-    /// What the solution shows without the feature of a line of the rubric; none for a line without one.
+    /// What the solution shows without the feature of a line of the rubric; `None` for a line without one.
     pub(crate) fn without(&self, line: usize) -> Option<&[Computed]> {
         let feature = self.assignment.features.get(line)?.as_ref()?;
         Some(self.features[line].get_or_init(|| self.assignment.computed_without(feature, self.probes)))

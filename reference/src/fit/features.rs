@@ -36,7 +36,7 @@ pub type ProbeChannel = (usize, usize);
 /// Where the features of the rubric show: in which channels at which probes the solution without one differs from the solution.
 #[derive(Clone, Debug)]
 pub struct Footprints {
-    /// For each line of the rubric and each probe the channels; none for a line without a feature.
+    /// For each line of the rubric and each probe the channels; `None` for a line without a feature.
     shows: Vec<Option<Vec<[bool; 3]>>>,
     /// The line of the rubric that judges what no feature shows, where there is one.
     rest: Option<usize>,

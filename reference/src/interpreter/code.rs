@@ -230,7 +230,7 @@ pub struct CodeConstant {
 /// A compiled program.
 #[derive(Clone, Debug, Default)]
 pub struct Code {
-    /// The value of each slot that holds a constant; none of the others.
+    /// The value of each slot that holds a constant; `None` for the others.
     pub constants: Vec<Option<CodeConstant>>,
     /// First values of uniforms.
     pub defaults: Vec<(Slot, f64)>,

@@ -31,7 +31,7 @@ pub struct Function {
     pub result: TypeName,
     /// Its parameters.
     pub parameters: Vec<Parameter>,
-    /// What it does; none for a prototype.
+    /// What it does; `None` for a prototype.
     pub body: Option<Vec<Statement>>,
 }
 

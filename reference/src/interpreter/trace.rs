@@ -16,7 +16,7 @@ pub struct Site {
     pub kind: Type,
     /// The sites of its operands.
     pub operands: Vec<usize>,
-    /// The function that it stands in; none outside of functions.
+    /// The function that it stands in; `None` outside of functions.
     pub function: Option<String>,
     /// Whether its value goes anywhere.
     pub is_used: bool,
@@ -84,7 +84,7 @@ pub struct Recorder {
     pub is_full: bool,
     /// Whether values are recorded at all.
     pub is_recording: bool,
-    /// Beyond this a value becomes 0, and so does what is no number; none where values stay as they are.
+    /// Beyond this a value becomes 0, and so does what is no number; `None` where values stay as they are.
     pub most: Option<f64>,
     /// What is changed, and how often it was.
     changes: Vec<(ValueChange, usize)>,
@@ -190,7 +190,7 @@ pub struct Trace {
 }
 
 impl Prepared<'_> {
-    /// Runs, and gives every value. None where there are more than a trace holds.
+    /// Runs, and gives every value. `None` where there are more than a trace holds.
     ///
     /// # Errors
     /// The steps are used up.

@@ -164,7 +164,7 @@ impl Type {
         }
     }
 
-    /// How many scalars a value has; none where a length is not known, or beyond all bounds.
+    /// How many scalars a value has; `None` where a length is not known, or beyond all bounds.
     pub fn slots(&self) -> Option<usize> {
         match self {
             Self::Void => Some(0),

@@ -20,7 +20,7 @@ impl WindowCoordinates {
         }
     }
 
-    /// How an input of this name counts; none where it is no place in the window.
+    /// How an input of this name counts; `None` where it is no place in the window.
     pub fn of(input: &str) -> Option<Self> {
         let all = [(false, false), (true, false), (false, true), (true, true)];
         let all = all.map(|(from_top, in_whole_pixels)| Self { from_top, in_whole_pixels });

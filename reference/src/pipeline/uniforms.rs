@@ -49,7 +49,7 @@ pub enum UniformSource {
 }
 
 impl Interface {
-    /// Where the numbers of a program's uniform come from; none where the homework sets none of them.
+    /// Where the numbers of a program's uniform come from; `None` where the homework sets none of them.
     pub fn source(&self, own: &ProgramVariable) -> Option<UniformSource> {
         let is_it = |uniform: &Uniform| uniform.is(own) && own.kind == uniform.kind;
         // Of two with one name the last counts: it is the student's own.

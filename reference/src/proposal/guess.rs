@@ -8,7 +8,7 @@ use crate::interpreter::{Scalar, Type};
 pub(super) struct Guess {
     /// As many numbers as the type has.
     pub value: Vec<f64>,
-    /// One number for all, or as many as the type has; none where the value stays.
+    /// One number for all, or as many as the type has; `None` where the value stays.
     pub within: Option<(Vec<f64>, Vec<f64>)>,
     /// What the name was taken for, in both languages.
     pub what: (&'static str, &'static str),

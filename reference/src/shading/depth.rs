@@ -64,7 +64,7 @@ impl Scenery<'_> {
         doubtful.into_iter().for_each(|pixel| visible.coverage[pixel as usize] = Coverage::Silhouette);
     }
 
-    /// The depths that are written at pixels, a little beside their middles; none where the fragment is thrown away.
+    /// The depths that are written at pixels, a little beside their middles; `None` where the fragment is thrown away.
     fn depths(&self, visible: &Visible, pixels: &[u32], output: usize, moved: [f64; 2]) -> Vec<Option<f64>> {
         let shake = super::Shake { moved, ..Default::default() };
         self.each(visible, pixels, None, &|surface, fragments| {

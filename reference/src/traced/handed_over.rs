@@ -58,7 +58,7 @@ impl Assignment {
     }
 
     /// The outputs that each line of the rubric tells about: those that its feature changes, or that no feature changes and it names
-    /// itself; of a line without a feature, all others. None where lines are known by definitions.
+    /// itself; of a line without a feature, all others. `None` where lines are known by definitions.
     fn changed_outputs<'w>(
         &self,
         right: &'w Written,

@@ -48,7 +48,7 @@ pub fn documents(format: ClassFormat, class: &Class) -> Result<Vec<Document>, Fa
     })
 }
 
-/// What `ggrade grade` prints for the only student of `class`; none for a format of another module.
+/// What `ggrade grade` prints for the only student of `class`; `None` for a format of another module.
 pub fn single(format: ClassFormat, class: &Class, scale: vpl::Scale) -> Result<Option<String>, Fault> {
     let class = &*class.for_students();
     Ok(match format {

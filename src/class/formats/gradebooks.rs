@@ -137,7 +137,7 @@ fn is_missing(entry: &ClassEntry) -> bool {
     matches!(entry.outcome, Outcome::NotGraded(_)) && entry.places.is_empty()
 }
 
-/// The most that the homework gives; none where nobody's was graded.
+/// The most that the homework gives; `None` where nobody's was graded.
 fn max_points(entry: &ClassEntry, class: &Class) -> Option<f64> {
     let of_class = || class.entries.iter().find_map(ClassEntry::report);
     entry.report().or_else(of_class).map(|report| report.max_score)

@@ -7,7 +7,7 @@ use crate::language::Text;
 /// As many are named; the rest is counted.
 const NAMED: usize = 10;
 
-/// What is said of some students; none when there are none.
+/// What is said of some students; `None` when there are none.
 pub(super) fn note(entries: &[&ClassEntry], en: &str, ja: &str) -> Option<Text> {
     list(entries.iter().map(|entry| one_line(&entry.student.name)).collect(), en, ja)
 }

@@ -31,7 +31,7 @@ pub fn autograder_failed() -> Text {
     )
 }
 
-/// What the staff is told about a failure of ours; none for every other outcome.
+/// What the staff is told about a failure of ours; `None` for every other outcome.
 pub fn fault(entry: &ClassEntry, language: Language) -> Option<String> {
     let Outcome::Fault(fault) = &entry.outcome else { return None };
     let remedy = fault.remedy.as_ref().map(|remedy| format!("\n{}", remedy.get(language))).unwrap_or_default();

@@ -96,7 +96,7 @@ pub fn beside(evidence: &Evidence<'_>, mut terms: Vec<TermJudgement>, findings: 
     spared.collect()
 }
 
-/// The ids of the lines that are about other variables of the solution than those in which places of mistakes were found; none where
+/// The ids of the lines that are about other variables of the solution than those in which places of mistakes were found; `None` where
 /// a place is all that is seen, or in none that a line is about. A line that judges where all stands has what moves that, and what
 /// follows from it.
 pub fn elsewhere(assignment: &Assignment, findings: &[Finding]) -> Option<Vec<String>> {

@@ -62,7 +62,7 @@ impl Search<'_, '_> {
         is_named && is_computed && !mend.suspect.is_right && self.is_to_blame(mend)
     }
 
-    /// By how much the colours move when this is put in its place; none where they do not.
+    /// By how much the colours move when this is put in its place; `None` where they do not.
     fn moved(&mut self, mend: &Mend) -> Option<Vec<DVec3>> {
         let seen = self.seen_with(mend)?;
         let moved: Vec<DVec3> = seen.iter().zip(&self.own.colours).map(|(seen, own)| *seen - *own).collect();

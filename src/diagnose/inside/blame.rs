@@ -55,7 +55,7 @@ impl Search<'_, '_> {
             || name.is_some() && self.is_computed_twice(mend, trace)
     }
 
-    /// What a place is computed from in its statement, and the arguments that come to it; none of a condition.
+    /// What a place is computed from in its statement, and the arguments that come to it; `None` for a condition.
     pub(super) fn operands(&self, mend: &Mend) -> Option<BTreeSet<usize>> {
         let trace = self.trace(mend.stage)?;
         let sites = self.theirs.stage(mend.stage).sites();

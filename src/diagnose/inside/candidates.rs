@@ -16,7 +16,7 @@ const PLAIN: [f64; 4] = [1.0, 0.0, -1.0, 2.0];
 pub(super) struct Mend {
     pub stage: Stage,
     pub suspect: Suspect,
-    /// The quantity by its place; none of a plain number or a truth value.
+    /// The quantity by its place; `None` for a plain number or a truth value.
     pub quantity: Option<usize>,
     pub values: Vec<ScalarColumns>,
 }

@@ -32,7 +32,7 @@ pub(super) struct Link {
     pub finding: Finding,
     /// The lines of what is written there, and of the numbers that it is computed from.
     pub lines: Vec<u32>,
-    /// What is seen where it is put right as well, and the same before it is kept within the bounds of a colour; none of the last
+    /// What is seen where it is put right as well, and the same before it is kept within the bounds of a colour; `None` for the last
     /// one, with which all is right.
     pub seen: Option<[Seen; 2]>,
     /// Whether something is computed there, and the text has all that it is to be computed from.

@@ -80,7 +80,7 @@ struct Needed {
     is_shared: bool,
 }
 
-/// None where a line judges all that is seen.
+/// `None` where a line judges all that is seen.
 fn needed(evidence: &Evidence<'_>, solution: &Runs<'_>, number: usize) -> Option<Needed> {
     let assignment = evidence.assignment;
     let line = &assignment.rubric[number];

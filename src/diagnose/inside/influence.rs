@@ -16,7 +16,7 @@ const SAME: f64 = 2e-4;
 type Influence = (usize, Vec<DVec3>);
 
 impl Search<'_, '_> {
-    /// The ids of the lines whose terms are not the same in two programs. None where that is not known of every line.
+    /// The ids of the lines whose terms are not the same in two programs. `None` where that is not known of every line.
     pub(super) fn changed_terms(&self, before: &TracedProgram, after: &TracedProgram) -> Option<Vec<String>> {
         let (before, after) = (self.influences(before)?, self.influences(after)?);
         let is_number = |(a, b): &(&DVec3, &DVec3)| a.is_finite() && b.is_finite();
@@ -57,7 +57,7 @@ impl Search<'_, '_> {
         own.is_some_and(|own| own.value.numbers().len() >= 3)
     }
 
-    /// What each line's term is. None where a line judges something else, or the program lacks a constant.
+    /// What each line's term is. `None` where a line judges something else, or the program lacks a constant.
     fn influences(&self, program: &TracedProgram) -> Option<Vec<Influence>> {
         let assignment = self.assignment;
         let stage = assignment.equation.reads().stage()?;
@@ -94,7 +94,7 @@ impl Search<'_, '_> {
     }
 }
 
-/// A constant that is 0: none of one that nothing is made of, and no change at all where the text does not declare it.
+/// A constant that is 0: `None` for one that nothing is made of, and no change at all where the text does not declare it.
 #[expect(clippy::option_option, reason = "the two are told apart")]
 fn without(constant: &str, sites: &[Site], trace: &Trace) -> Option<Option<ValueChange>> {
     let is_it =

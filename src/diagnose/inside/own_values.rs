@@ -31,7 +31,7 @@ const LINES_OF_ALL_PLACES: usize = 24;
 const MOST_NUMBERS: usize = 16;
 
 /// What a wrong answer computes at some of these places of a frame; at probes, where the frame shows nothing wrong. `lines`: those that
-/// the report speaks of. None where the text cannot be run, or nothing is wrong at any place that is looked at.
+/// the report speaks of. `None` where the text cannot be run, or nothing is wrong at any place that is looked at.
 pub(in crate::diagnose) fn own_values(
     evidence: &Evidence<'_>,
     frame: u32,

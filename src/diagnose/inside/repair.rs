@@ -49,7 +49,7 @@ struct RepairAttempt {
     program: TracedProgram,
     texts: Vec<(Stage, Repairable)>,
     seen: Seen,
-    /// What has to be seen of it while other mistakes are still there, see [`Link::seen`]; none where all has to be right.
+    /// What has to be seen of it while other mistakes are still there, see [`Link::seen`]; `None` where all has to be right.
     part: Option<[Seen; 2]>,
 }
 
@@ -73,7 +73,7 @@ impl RepairAttempt {
         })
     }
 
-    /// The program with one more change; none where that is no program.
+    /// The program with one more change; `None` where that is no program.
     fn with(&self, (stage, repair): &RepairStep) -> Option<TracedProgram> {
         self.program.with(*stage, self.text(*stage)?.program(repair)?)
     }

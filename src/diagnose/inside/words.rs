@@ -107,7 +107,7 @@ impl Finding {
         )
     }
 
-    /// What the value should be at a place that shows it, and what it is there; none where it is long, or no number.
+    /// What the value should be at a place that shows it, and what it is there; `None` where it is long, or no number.
     pub fn numbers(&self) -> Option<[String; 2]> {
         let is_short = (1..=4).contains(&self.expected.len());
         let is_finite = self.expected.iter().chain(&self.found).all(|number| number.is_finite());

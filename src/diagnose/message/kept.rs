@@ -85,7 +85,7 @@ impl KeptLines {
         })
     }
 
-    /// How far a line is right where it shows, wherever the mistake stands; none of one that is not seen by itself.
+    /// How far a line is right where it shows, wherever the mistake stands; `None` for one that is not seen by itself.
     fn judgement(&self, evidence: &Evidence<'_>, line: &RubricItem) -> Option<&TermJudgement> {
         let terms = self.terms.get_or_init(|| terms_alone(evidence));
         terms.iter().find(|term| term.line == line.id)

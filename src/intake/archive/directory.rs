@@ -27,7 +27,7 @@ pub(super) struct Directory {
     pub is_recovered: bool,
 }
 
-/// Reads the directory; none where the bytes are no archive at all. At most `most` members are listed.
+/// Reads the directory; `None` where the bytes are no archive at all. At most `most` members are listed.
 pub(super) fn read(storage: &ArchiveStorage, most: u64) -> Option<Directory> {
     let most = usize::try_from(most).unwrap_or(usize::MAX);
     let mut directory = match central(storage) {

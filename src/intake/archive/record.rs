@@ -66,7 +66,7 @@ pub(super) fn u64_at(bytes: &[u8], at: usize) -> u64 {
     u64::from(u32_at(bytes, at)) | u64::from(u32_at(bytes, at + 4)) << 32
 }
 
-/// The first record of the central directory in `bytes` and its length; none where there is none, or it is cut off.
+/// The first record of the central directory in `bytes` and its length; `None` where there is none, or it is cut off.
 pub(super) fn central(bytes: &[u8]) -> Option<(ArchiveRecord, usize)> {
     let fixed = bytes.get(..CENTRAL).filter(|fixed| fixed.starts_with(&CENTRAL_SIGNATURE))?;
     let [name, extra, comment] = [28, 30, 32].map(|at| usize::from(u16_at(fixed, at)));
@@ -90,7 +90,7 @@ pub(super) fn central(bytes: &[u8]) -> Option<(ArchiveRecord, usize)> {
     Some((record, length))
 }
 
-/// The local header at the start of `bytes`; none where there is none, or it is cut off.
+/// The local header at the start of `bytes`; `None` where there is none, or it is cut off.
 pub(super) fn local(bytes: &[u8]) -> Option<LocalHeader> {
     let fixed = bytes.get(..LOCAL).filter(|fixed| fixed.starts_with(&LOCAL_SIGNATURE))?;
     let [name, extra] = [26, 28].map(|at| usize::from(u16_at(fixed, at)));

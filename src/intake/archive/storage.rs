@@ -26,7 +26,7 @@ impl ArchiveStorage {
         }
     }
 
-    /// The `length` bytes from `offset` on; none where the archive ends before them or the disk fails.
+    /// The `length` bytes from `offset` on; `None` where the archive ends before them or the disk fails.
     pub fn bytes(&self, offset: u64, length: usize) -> Option<Vec<u8>> {
         let end = offset.checked_add(length as u64)?;
         if end > self.len() {

@@ -29,7 +29,7 @@ impl Default for Palette {
 }
 
 impl Palette {
-    /// The place of a colour among all; none for the 257th.
+    /// The place of a colour among all; `None` for the 257th.
     pub fn index(&mut self, colour: Rgb) -> Option<u8> {
         if let Some((last, index)) = self.last
             && last == colour

@@ -32,7 +32,7 @@ impl ExpectedSheets {
         })
     }
 
-    /// The sheet of `yours`, and that of where it differs from `expected`, which the base is made of; none where what is drawn has
+    /// The sheet of `yours`, and that of where it differs from `expected`, which the base is made of; `None` where what is drawn has
     /// more colours than a palette. All pictures have one size, and nothing but background outside of the part.
     pub fn sheets(&self, yours: &[Picture], expected: &[Picture]) -> Option<[Canvas; 2]> {
         let (part, ramp) = (self.part, ColourRamp::new());

@@ -54,7 +54,7 @@ pub struct Film {
 type MadeFilm = (Arc<[Picture]>, Option<Arc<Film>>);
 
 impl Film {
-    /// The film of a grading, in every pixel or, where that is too large, in some of them; none when nothing was drawn. Gradings that
+    /// The film of a grading, in every pixel or, where that is too large, in some of them; `None` when nothing was drawn. Gradings that
     /// share their pictures have one film.
     pub fn of(yours: &Arc<[Picture]>, expected: &Arc<[Picture]>, shown: FilmUse) -> Result<Option<Arc<Self>>, Fault> {
         static MADE: PictureCache<[Picture], FilmUse, MadeFilm> = PictureCache::new();

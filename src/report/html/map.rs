@@ -31,7 +31,7 @@ pub(super) struct MapView {
 }
 
 impl MapView {
-    /// None where the homework draws no such map.
+    /// `None` where the homework draws no such map.
     pub fn of(assignment: &Assignment, lookup: &MapLookup, language: Language) -> Option<Self> {
         let (size, depths) = assignment.drawn_map(lookup.texture as usize)?;
         let picture = picture(size, &depths);

@@ -26,7 +26,7 @@ pub(super) struct Panel<'a> {
 }
 
 impl<'a> Player<'a> {
-    /// None when nothing was drawn.
+    /// `None` when nothing was drawn.
     pub fn of(gallery: &'a PictureAddresses, frames: &[FrameResult], labels: &'static Labels) -> Option<Self> {
         let panel = |id, label, address| Panel { id, label, address };
         Some(Self {

@@ -18,7 +18,7 @@ pub(super) struct Shots<'a> {
 }
 
 impl<'a> Shots<'a> {
-    /// None where there is no picture. All of them have one size, and outside of `part` nothing but background.
+    /// `None` where there is no picture. All of them have one size, and outside of `part` nothing but background.
     pub fn of(pictures: &'a [Picture], part: Area) -> Option<Self> {
         let blank = pictures.first()?.blank;
         let in_row = |picture: &Picture, y| {

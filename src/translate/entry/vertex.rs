@@ -83,7 +83,7 @@ fn as_floats(
     build.node(Expression::Compose { ty: vec4, components })
 }
 
-/// What `gl_Position` was left with, as an expression of the wrapper; none where it was never written.
+/// What `gl_Position` was left with, as an expression of the wrapper; `None` where it was never written.
 fn position(module: &Module, function: &Function) -> Option<Handle<Expression>> {
     let returned = function.body.iter().rev().find_map(|statement| match statement {
         Statement::Return { value } => *value,

@@ -139,7 +139,7 @@ pub(super) fn split_name(text: &str) -> (&str, &str) {
     text.split_at(text.find(|c: char| !c.is_ascii_alphanumeric() && c != '_').unwrap_or(text.len()))
 }
 
-/// Takes `( … )` from the items and splits it at its commas; none where no parenthesis follows.
+/// Takes `( … )` from the items and splits it at its commas; `None` where no parenthesis follows.
 fn arguments(items: &mut Vec<PendingToken>, hidden: &mut HashMap<Rc<str>, i32>) -> Option<Vec<Vec<PendingToken>>> {
     let next = items.iter().rev().find_map(|item| match item {
         PendingToken::ExpandedToken(token) => Some(&*token.text == "("),

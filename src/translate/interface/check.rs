@@ -159,7 +159,7 @@ fn is_part_of(path: &str, whole: &str) -> bool {
     path.strip_prefix(whole).is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
 }
 
-/// How many components a type of whole numbers or truth values has; none of another type.
+/// How many components a type of whole numbers or truth values has; `None` for another type.
 fn whole_numbers(ty: &str) -> Option<u8> {
     match ty {
         "bool" | "int" | "uint" => Some(1),

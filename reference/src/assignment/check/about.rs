@@ -72,7 +72,7 @@ pub(super) fn computed(files: &[HandedIn]) -> BTreeSet<String> {
     Flow::of(files).computed().map(|(_, name)| name.clone()).collect()
 }
 
-/// What belongs to a feature without which these texts are replaced; none where that is not within a function.
+/// What belongs to a feature without which these texts are replaced; `None` where that is not within a function.
 fn belongs(flow: &Flow<'_>, replaced: &[[String; 2]]) -> Option<Belongs> {
     let mut belongs = Belongs::default();
     for [value, instead] in replaced {

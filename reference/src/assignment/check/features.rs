@@ -33,7 +33,7 @@ pub(super) fn features(
     Ok(features)
 }
 
-/// The equation with a definition that is 0; none where the definition is all that is seen, or no number.
+/// The equation with a definition that is 0; `None` where the definition is all that is seen, or no number.
 fn term(solution: &mut CheckedSolution<'_>, name: &str) -> CheckResult<Option<MistakeForm>> {
     let definition = solution.definition(name, &String::new)?;
     let is_all = definition == solution.colour()? || solution.is_position(name);

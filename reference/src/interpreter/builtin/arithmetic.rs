@@ -4,7 +4,7 @@ use crate::interpreter::code::{ArithmeticClass, Operation, Slot};
 use crate::interpreter::compile::CodeBuilder;
 use std::f64::consts::PI;
 
-/// Writes the function; none where it is not one of these.
+/// Writes the function; `None` where it is not one of these.
 pub fn write(builder: &mut CodeBuilder, name: &str, class: ArithmeticClass, of: &[&[Slot]]) -> Option<Vec<Vec<Slot>>> {
     let operation = match (name, of.len()) {
         ("sin", 1) => Operation::Sin,

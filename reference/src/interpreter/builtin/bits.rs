@@ -6,7 +6,7 @@ use crate::interpreter::code::{ArithmeticClass, DerivativeAxis, Node, Operation,
 use crate::interpreter::compile::{CodeBuilder, class};
 use crate::interpreter::types::Scalar;
 
-/// Writes the function; none where it is not one of these.
+/// Writes the function; `None` where it is not one of these.
 pub fn write(builder: &mut CodeBuilder, name: &str, scalar: Scalar, of: &[&[Slot]]) -> Option<Vec<Vec<Slot>>> {
     relation(builder, name, class(scalar), of)
         .or_else(|| carry(builder, name, of))
@@ -163,7 +163,7 @@ fn parts(builder: &mut CodeBuilder, class: ArithmeticClass, word: Slot, bits: u3
 }
 
 impl BuiltinCall<'_> {
-    /// Derivatives; none where it is not one of these, or not in a fragment stage.
+    /// Derivatives; `None` where it is not one of these, or not in a fragment stage.
     pub(super) fn derivative(&self, builder: &mut CodeBuilder, of: &[&[Slot]]) -> Option<Vec<Vec<Slot>>> {
         let [a] = of else { return None };
         if self.stage != Stage::Fragment {

@@ -5,7 +5,7 @@ use crate::interpreter::code::{ArithmeticClass, Operation, Slot};
 use crate::interpreter::compile::CodeBuilder;
 use crate::interpreter::types::Type;
 
-/// Writes the function; none where it is not one of these.
+/// Writes the function; `None` where it is not one of these.
 pub fn write(builder: &mut CodeBuilder, name: &str, class: ArithmeticClass, of: &[&[Slot]]) -> Option<Vec<Vec<Slot>>> {
     let result = match (name, of) {
         ("dot", [a, b]) => vec![builder.dot(class, a, b)],
@@ -94,7 +94,7 @@ fn refract(
 }
 
 impl BuiltinCall<'_> {
-    /// Functions of matrices; none where it is not one of these.
+    /// Functions of matrices; `None` where it is not one of these.
     pub(super) fn matrix(&self, builder: &mut CodeBuilder, class: ArithmeticClass) -> Option<Vec<Vec<Slot>>> {
         let first = self.arguments.first()?;
         let shape = match &first.kind {

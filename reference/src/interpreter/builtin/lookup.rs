@@ -57,7 +57,7 @@ const OLD_NAMES: [(&str, &str, Dimension); 22] = [
     ("shadow2DProjLod", "textureProjLod", Dimension::Two),
 ];
 
-/// The lookup of today that one of old GLSL is; none where there is none of the same kind.
+/// The lookup of today that one of old GLSL is; `None` where there is none of the same kind.
 pub fn lookup_of_today(name: &str) -> Option<&'static str> {
     OLD_NAMES.iter().find(|(old, ..)| *old == name).map(|(_, today, _)| *today)
 }

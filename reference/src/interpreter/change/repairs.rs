@@ -226,7 +226,7 @@ impl Repairable {
         ranked.into_iter().map(|(_, repair)| repair).collect()
     }
 
-    /// The program with a change in it; none where it is no program.
+    /// The program with a change in it; `None` where it is no program.
     pub fn program(&self, repair: &ProgramRepair) -> Option<Program> {
         let items = self.items_with(repair, false);
         Some(Program::of(compile::compile(&items, self.version, self.stage).ok()?))

@@ -28,7 +28,7 @@ pub struct Signature {
 /// How good a conversion is; the best is the smallest.
 type ConversionRank = u8;
 
-/// The rank of a conversion of values; none where there is no such conversion without asking for it.
+/// The rank of a conversion of values; `None` where there is no such conversion without asking for it.
 pub fn rank(from: &Type, to: &Type, version: u32) -> Option<ConversionRank> {
     if from == to {
         return Some(0);

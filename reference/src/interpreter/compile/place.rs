@@ -22,7 +22,7 @@ pub struct LValue {
 }
 
 impl Compiler {
-    /// The place that an expression names; none where it is a value.
+    /// The place that an expression names; `None` where it is a value.
     pub(super) fn place(&mut self, expression: &Expression) -> Result<Option<LValue>, Refusal> {
         self.builder.line = expression.line;
         match &expression.kind {

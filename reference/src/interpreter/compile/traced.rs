@@ -231,7 +231,7 @@ impl Compiler {
         self.tracing.operands.clear();
     }
 
-    /// What an expression does; none of one that is recorded elsewhere, or only stands for another.
+    /// What an expression does; `None` for one that is recorded elsewhere, or only stands for another.
     fn what(&self, expression: &Expression) -> Option<What> {
         Some(match &expression.kind {
             ExpressionKind::Integer(..) | ExpressionKind::Floating(..) | ExpressionKind::Bool(_) => What::Literal,

@@ -114,7 +114,7 @@ pub fn is(operation: Operation, class: ArithmeticClass, operands: [f64; 3]) -> b
     table(operation, class, SingleOperands(operands))
 }
 
-/// In which lanes the operation's result is undefined, and why; none where it is defined in all of them.
+/// In which lanes the operation's result is undefined, and why; `None` where it is defined in all of them.
 pub fn lanes(operation: Operation, class: ArithmeticClass, operands: [&[f64]; 3]) -> Option<(Undefined, Vec<bool>)> {
     table(operation, class, LaneOperands(operands))
 }

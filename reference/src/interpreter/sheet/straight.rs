@@ -73,7 +73,7 @@ impl VectorInstruction {
     }
 }
 
-/// The nodes as steps one after the other, without those that `target` does not need; none where they branch.
+/// The nodes as steps one after the other, without those that `target` does not need; `None` where they branch.
 /// `temporaries`: where values may be kept on the way.
 pub(super) fn steps(nodes: &[Node], target: Range<Slot>, temporaries: Range<Slot>) -> Option<Vec<VectorInstruction>> {
     let mut instructions = in_a_row(nodes, &target)?;

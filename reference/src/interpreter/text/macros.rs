@@ -14,7 +14,7 @@ const MAX_DEPTH: usize = 64;
 /// What a name stands for.
 #[derive(Debug)]
 struct Macro {
-    /// Names of the arguments; none where it is used without brackets.
+    /// Names of the arguments; `None` where it is used without brackets.
     parameters: Option<Vec<Rc<str>>>,
     body: Vec<Token>,
 }
@@ -206,7 +206,7 @@ fn parameters(rest: &[Token]) -> Result<(Option<Vec<Rc<str>>>, &[Token]), Refusa
     ))
 }
 
-/// Takes `(…)` off the input; none where the macro stands without brackets, or they do not end.
+/// Takes `(…)` off the input; `None` where the macro stands without brackets, or they do not end.
 fn arguments(input: &mut Vec<Token>, count: usize) -> Option<Vec<Vec<Token>>> {
     if !input.last()?.is("(") {
         return None;

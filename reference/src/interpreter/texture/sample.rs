@@ -151,7 +151,7 @@ impl Texture {
         })
     }
 
-    /// One texel by whole coordinates; none outside of the texture.
+    /// One texel by whole coordinates; `None` outside of the texture.
     pub fn fetch(&self, lookup: &Lookup) -> Option<[f64; 4]> {
         let level = self.levels.get(lookup.level as usize).filter(|_| lookup.level >= 0.0)?;
         let mut index = [0_usize; 3];
@@ -194,7 +194,7 @@ fn at(level: &Level, [x, y, z]: [usize; 3]) -> [f64; 4] {
     level.texels.at((z * level.size[1] + y) * level.size[0] + x)
 }
 
-/// The coordinate inside of the texture; none for the border.
+/// The coordinate inside of the texture; `None` for the border.
 fn wrapped(texel: f64, size: f64, wrap: Wrap) -> Option<usize> {
     // What is not a number, or too far for whole numbers, is anywhere.
     let texel = if texel.is_finite() { texel } else { 0.0 };

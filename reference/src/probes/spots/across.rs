@@ -66,7 +66,7 @@ impl Crossings {
         Self { probes, edges: self.edges.clone() }
     }
 
-    /// How an answer goes over the edges, where something is wrong with that; none where it shows no difference there either.
+    /// How an answer goes over the edges, where something is wrong with that; `None` where it shows no difference there either.
     pub fn course(&self, colours: &[[f64; 3]]) -> Option<EdgeDefect> {
         let ways: Vec<Vec<f64>> = self.edges.iter().filter_map(|edge| way(colours.get(edge.clone())?)).collect();
         let few = |count: usize| count * FEW < ways.len();
@@ -98,7 +98,7 @@ fn is_uneven(way: &[f64]) -> bool {
 }
 
 impl Assignment {
-    /// Rows across edges of what the pass draws; none where there is no pass, or no edge.
+    /// Rows across edges of what the pass draws; `None` where there is no pass, or no edge.
     pub fn crossings(&self) -> Option<Crossings> {
         self.gradual.as_ref()?;
         let mut random = ChaCha8Rng::seed_from_u64(SEED);
@@ -130,7 +130,7 @@ impl Assignment {
         (!all.edges.is_empty()).then_some(all)
     }
 
-    /// A row, and the places in it of its crossings; none without one.
+    /// A row, and the places in it of its crossings; `None` without one.
     fn row(&self, random: &mut Random, group: usize, drawn: &ProbeGroup) -> Option<(Vec<Probe>, Vec<Range<usize>>)> {
         let (corners, weights, cull) = self.triangle(random);
         let place: DVec4 = corners.iter().zip(weights).map(|(corner, weight)| corner.position * weight).sum();

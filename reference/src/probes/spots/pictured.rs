@@ -22,7 +22,7 @@ pub struct Pictured {
     pub uniforms: Vec<Value>,
     /// Where it is seen, as shares of the picture's sides from the upper left corner.
     pub at: [f64; 2],
-    /// The pixel, by column and row from above; none of a vertex.
+    /// The pixel, by column and row from above; `None` for a vertex.
     pub pixel: Option<[u32; 2]>,
 }
 
@@ -82,7 +82,7 @@ impl Assignment {
         pixels.iter().filter(|[x, y]| *x < width && *y < height).filter_map(pictured).collect()
     }
 
-    /// Where a place of clip space is seen; none where it is outside of the picture.
+    /// Where a place of clip space is seen; `None` where it is outside of the picture.
     fn in_picture(&self, position: DVec4) -> Option<[f64; 2]> {
         let seen = DVec2::new(position.x, -position.y) / position.w;
         let is_inside = position.w > 0.0 && seen.is_finite() && seen.abs().max_element() <= 1.0;

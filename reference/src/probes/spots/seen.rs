@@ -3,7 +3,7 @@
 use super::FragmentChoice;
 use glam::{DMat3, DVec2, DVec3, DVec4};
 
-/// The share of each end of a triangle at a place in a window, in pixels; none where it is not before the eye.
+/// The share of each end of a triangle at a place in a window, in pixels; `None` where it is not before the eye.
 pub(super) fn weights_at(ends: [DVec4; 3], place: [f64; 2], window: [f64; 2]) -> Option<[f64; 3]> {
     let [x, y] = (DVec2::from(place) / DVec2::from(window) * 2.0 - 1.0).to_array();
     let rows = ends.map(|end| DVec3::new(end.x - x * end.w, end.y - y * end.w, 1.0));

@@ -173,7 +173,7 @@ impl Assignment {
         Some((0..lanes.len()).map(colour).collect())
     }
 
-    /// What another program shows at each probe, and whether that is steady; none where it cannot be run.
+    /// What another program shows at each probe, and whether that is steady; `None` where it cannot be run.
     pub fn shown_at(&self, pipeline: &Pipeline, probes: &ProbeSet) -> Option<Vec<ProbeOutput>> {
         self.shown(pipeline, probes, WAYS)
     }

@@ -124,7 +124,7 @@ fn listed(key: &str, pictures: &[&str]) -> String {
 }
 
 impl ProposedTextures {
-    /// A texture for the sampler at a path; none where a homework has none for it.
+    /// A texture for the sampler at a path; `None` where a homework has none for it.
     pub fn of(&mut self, path: &str, sampler: Sampler) -> Option<ProposedTexture> {
         let is_whole = sampler.texel != Scalar::Float;
         if sampler.shadow || is_whole && sampler.dimension == Dimension::Cube {

@@ -21,7 +21,7 @@ pub(super) fn replaced(cell: &str, ours: &str, former: &Former) -> WorksheetComm
     whole(format!("{cell}{ours}"))
 }
 
-/// HTML with `ours` in the place of our element; none where it has none.
+/// HTML with `ours` in the place of our element; `None` where it has none.
 fn in_html(cell: &str, ours: &str) -> Option<String> {
     let element = |html: &str| {
         let start = [OPEN, OPEN_QUOTED].iter().filter_map(|open| html.find(open)).min()?;

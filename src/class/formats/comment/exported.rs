@@ -58,7 +58,7 @@ pub(super) fn is_html(cell: &str) -> bool {
     })
 }
 
-/// What follows the `>` of an element's beginning; none where something else than attributes stands before it.
+/// What follows the `>` of an element's beginning; `None` where something else than attributes stands before it.
 fn attributes_end(text: &str) -> Option<&str> {
     let mut rest = text;
     loop {

@@ -38,7 +38,7 @@ impl<'a> PortraitStyles<'a> {
         self.classes.insert(png, class);
     }
 
-    /// The style class of a picture; none where there is no picture.
+    /// The style class of a picture; `None` where there is no picture.
     pub fn class(&self, png: Option<&[u8]>) -> Option<String> {
         png.filter(|png| !png.is_empty()).and_then(|png| self.classes.get(png)).cloned()
     }

@@ -24,7 +24,7 @@ impl<'a> FileLines<'a> {
         (number as usize).checked_sub(1).and_then(|index| self.0.get(index)).copied().unwrap_or_default()
     }
 
-    /// A whole line; none for the line 0, which does not exist.
+    /// A whole line; `None` for the line 0, which does not exist.
     pub fn whole(&self, line: u32) -> Option<Value> {
         (line > 0).then(|| json!({ "startLine": line }))
     }

@@ -32,7 +32,7 @@ impl Style {
     }
 }
 
-/// The number in a cell; none where there is none, such as an empty cell or `-`.
+/// The number in a cell; `None` where there is none, such as an empty cell or `-`.
 pub(super) fn read(cell: &str) -> Option<f64> {
     cell.trim().replace(',', ".").parse().ok().filter(|value: &f64| value.is_finite())
 }

@@ -57,7 +57,7 @@ impl<'a> Worksheet<'a> {
         decode(self.encoding, &cell.content(self.bytes))
     }
 
-    /// Who the row is of; the error is the identifier that has no number. None for a row without one.
+    /// Who the row is of; the error is the identifier that has no number. `None` for a row without one.
     pub fn person(&self, row: &[CsvCell]) -> Option<Result<WorksheetPerson, String>> {
         let text = |column: Option<usize>| self.text(row, column?).map(|text| text.trim().to_owned());
         let identifier = text(Some(self.columns.identifier)).filter(|identifier| !identifier.is_empty())?;

@@ -12,7 +12,7 @@ use reference::interpreter::trace::Trace;
 const DIGITS: i32 = 6;
 
 impl Search<'_, '_> {
-    /// A statement at the places from `first` on; none where it is not reached there.
+    /// A statement at the places from `first` on; `None` where it is not reached there.
     pub(super) fn line(
         &self,
         stage: Stage,

@@ -28,7 +28,7 @@ pub(super) struct Mending<'l> {
 
 impl Search<'_, '_> {
     /// A change in each place of several mistakes, as far as there are such: then a mistake of the homework is left, or the other places
-    /// are. None where that is not all.
+    /// are. `None` where that is not all.
     pub(super) fn chained(&self, attempt: &RepairAttempt, right: &Ingredients) -> Option<Mending<'_>> {
         let chain = self.chain();
         let mut attempt = attempt.clone();

@@ -11,9 +11,9 @@ use reference::mistake::Mistake;
 pub(in crate::diagnose) struct Repaired {
     /// The mistake that it undoes.
     pub mistake: Mistake,
-    /// What kind of mistake that is; none of one that the homework names.
+    /// What kind of mistake that is; `None` for one that the homework names.
     pub operator: Option<Operator>,
-    /// Where it is; none of what the text has nothing of.
+    /// Where it is; `None` for what the text has nothing of.
     pub located: Option<Located>,
     /// What is written there, and what belongs there.
     pub texts: [String; 2],

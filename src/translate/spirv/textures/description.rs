@@ -88,7 +88,7 @@ pub struct CommonTexture {
 }
 
 impl CommonTexture {
-    /// None where they differ, or where there is none.
+    /// `None` where they differ, or where there is none.
     pub fn of(textures: &[Texture]) -> Option<Self> {
         let all = descriptions(textures);
         let first = *all.first()?;

@@ -4,7 +4,7 @@ use crate::assignment::HandedIn;
 use crate::interpreter::outline::{FunctionText, StatementText, Word, functions};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// A name, and the number of the function in which it is declared; none outside of functions.
+/// A name, and the number of the function in which it is declared; `None` outside of functions.
 pub(super) type ScopedName = (Option<usize>, String);
 
 /// The functions of a solution, and from what each name is computed.
