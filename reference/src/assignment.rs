@@ -8,7 +8,7 @@ mod mistakes;
 use crate::accepted::{AcceptedAnswer, Reading};
 use crate::advice::Advice;
 use crate::derived::Derived;
-use crate::equation::{Equation, Reads};
+use crate::equation::Equation;
 use crate::feature::Feature;
 pub use crate::feed::{Attribute, Bounds, Feed, Role, Stream};
 use crate::free::Free;
@@ -241,15 +241,6 @@ impl Assignment {
     /// Points of the whole rubric.
     pub fn max_score(&self) -> f64 {
         self.rubric.iter().map(|line| line.points).sum()
-    }
-
-    /// The names of what the equation reads of a probe beside the uniforms, in its order.
-    pub fn names_read(&self) -> Vec<&str> {
-        match self.equation.reads() {
-            Reads::Attributes => self.interface.inputs.iter().map(|input| input.name.as_str()).collect(),
-            Reads::Varyings => self.pipeline.fragment.inputs().iter().map(|input| input.name.as_str()).collect(),
-            Reads::Outputs => Vec::new(),
-        }
     }
 
     /// The values of the uniforms at a moment, in the interface's order.

@@ -191,11 +191,6 @@ impl Scene {
         views.flat_map(|(view, one)| one.times.iter().map(move |t| self.pose_of(view, *t))).collect()
     }
 
-    /// `count` poses of the course's own view: t = k / count.
-    pub fn evenly_spaced(&self, count: u32) -> Vec<Pose> {
-        (0..count).map(|k| self.pose(f64::from(k) / f64::from(count))).collect()
-    }
-
     /// What is drawn at a pose, in this order.
     pub fn instances(&self, pose: &Pose) -> Vec<Instance<'_>> {
         self.instances_at(pose.view, pose.t)
