@@ -13,10 +13,8 @@ pub use compare::{DriverOutput, compare};
 pub use program::check_program;
 use reference::assignment::Interface;
 use reference::interpreter::{Program, Stage};
+use reference::pipeline::POSITION;
 use vertices::VertexColumns;
-
-/// The output that every vertex stage has.
-const POSITION: &str = "gl_Position";
 
 /// Runs the file's text on the vertices that the driver had, and compares colours and positions. The uniforms of the draws stand in the
 /// order of the interface.

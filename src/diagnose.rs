@@ -20,7 +20,6 @@ use crate::render::Sample;
 use crate::report::{AdviceLine, FrameResult, Hints, Hypothesis, OwnValues, ProbeResult, Repair, RubricLine};
 use crate::source::Source;
 use advice::Beyond;
-pub use cause::UNEXPLAINED;
 use cause::{Cause, belongs, cause, kept};
 pub use fresh::Fresh;
 pub use inside::Recorded;

@@ -28,6 +28,9 @@ use crate::language::{Language, Text};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 
+/// The id of a mistake that is none of those that are known: nothing explains a wrong answer.
+pub const UNEXPLAINED: &str = "unexplained";
+
 /// The outcome in one word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "service", derive(utoipa::ToSchema))]

@@ -164,7 +164,7 @@ pub(crate) struct ShadedVertices {
 }
 
 /// What an attribute has where less is given.
-pub(crate) const LACKING: [f64; 4] = [0.0, 0.0, 0.0, 1.0];
+pub const LACKING: [f64; 4] = [0.0, 0.0, 0.0, 1.0];
 
 /// A column of all samples for each scalar of a variable.
 pub(crate) fn columns<'v>(variable: &ProgramVariable, values: impl Iterator<Item = &'v Value>) -> Vec<Vec<f64>> {

@@ -5,14 +5,11 @@ use crate::render::DrawCall;
 use crate::report::CrossCheck;
 use reference::assignment::{Input, Interface};
 use reference::interpreter::{Mismatch, Outputs, Precision, Program, Run, Stopped};
-use reference::pipeline::UniformSource;
+use reference::pipeline::{LACKING, UniformSource};
 
 /// Steps that one run may take: a tenth of a second or two, so that a second opinion does not make a grading late. That is
 /// 90,000 operations for each vertex of ggsample06, of which a usual answer takes 300.
 const FUEL: u64 = 60_000_000;
-
-/// What an attribute has where less is given.
-const LACKING: [f64; 4] = [0.0, 0.0, 0.0, 1.0];
 
 /// All vertices as columns.
 pub(super) struct VertexColumns<'a> {

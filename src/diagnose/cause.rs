@@ -11,7 +11,7 @@ use super::listed::WrongNumbers;
 use super::{CONSTANTS_CHANGED, Evidence, Fresh, addends};
 use crate::compare::COLOUR_TOLERANCE;
 use crate::render::Sample;
-use crate::report::Hypothesis;
+use crate::report::{Hypothesis, UNEXPLAINED};
 use glam::DVec3;
 use reference::Assignment;
 use reference::assignment::RubricItem;
@@ -25,8 +25,6 @@ use unexplained::with_features;
 pub use worth::{belongs, kept};
 
 const HARD_CODED: &str = "hard-coded";
-/// Nothing that is known explains a wrong answer.
-pub const UNEXPLAINED: &str = "unexplained";
 pub(super) const NEARLY_RIGHT: &str = "nearly-right";
 pub(super) const FEW_PIXELS: &str = "few-pixels";
 /// Every fragment is thrown away.

@@ -5,13 +5,14 @@
 mod blanks;
 mod kept;
 
-use super::cause::{FEW_PIXELS, NEARLY_RIGHT, PART_ABSENT, PART_MISSING, PART_SCALED, UNEXPLAINED};
+use super::cause::{FEW_PIXELS, NEARLY_RIGHT, PART_ABSENT, PART_MISSING, PART_SCALED};
 use super::constants::ChangedConstant;
 use super::inside::{self, Finding};
 use super::listed::WrongNumbers;
 use super::locate::{self, Located, TracedProbes, Words};
 use super::{Cause, Evidence, Hints};
 use crate::language::Text;
+use crate::report::UNEXPLAINED;
 use blanks::Blanks;
 use kept::KeptLines;
 use reference::assignment::RubricItem;

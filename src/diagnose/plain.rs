@@ -2,7 +2,7 @@
 //!
 //! A factor of 3.5 equals `kspec + lspec` in place of their product. Only the text tells which of the two it is.
 
-use crate::source::Source;
+use crate::source::{Source, words};
 use reference::Assignment;
 use reference::fit::{Fit, explain_by};
 use reference::interpreter::Stage;
@@ -47,7 +47,7 @@ fn without_refuted(
         let is_found = found.iter().any(|found| found.id == mistake.id && found.parameter.is_none());
         let squeezed = squeezed(&statements);
         let misses = !mistake.needs.is_empty() && !mistake.needs.iter().any(|part| squeezed.contains(part));
-        is_found && (misses || mistake.lacks.iter().any(|name| words(&statements).any(|word| word == name)))
+        is_found && (misses || mistake.lacks.iter().any(|name| words(&statements).any(|(_, word)| word == name)))
     };
     let refuted: Vec<usize> = (0..assignment.mistakes.len()).filter(|i| is_refuted(&assignment.mistakes[*i])).collect();
     (!refuted.is_empty()).then(|| {
@@ -66,10 +66,6 @@ fn statements(sources: &[(Stage, &Source)]) -> String {
         line.starts_with("const ") || line.starts_with('#')
     };
     lines.filter(|line| !is_constant(line)).collect::<Vec<_>>().join("\n")
-}
-
-fn words(text: &str) -> impl Iterator<Item = &str> {
-    text.split(|c: char| !(c.is_ascii_alphanumeric() || c == '_')).filter(|word| !word.is_empty())
 }
 
 /// The text without spaces, parentheses, constructors of vectors and swizzles.

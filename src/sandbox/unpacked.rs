@@ -2,12 +2,10 @@
 
 use crate::language::Text;
 use reference::Folder;
+use reference::assignment::MANIFEST;
 use std::collections::BTreeMap;
 use std::io::{Cursor, Read};
 use zip::ZipArchive;
-
-/// What makes a folder a homework's.
-const MANIFEST: &str = "assignment.toml";
 
 /// Most members of an archive, and most bytes of all of them unpacked.
 const MOST_FILES: usize = 1000;

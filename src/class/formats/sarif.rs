@@ -11,7 +11,7 @@ use crate::class::{Class, ClassEntry, Outcome};
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::intake::FileLocation;
 use crate::language::Language;
-use crate::report::{AdviceLine, RubricLine, SourceInfo, Verdict};
+use crate::report::{AdviceLine, RubricLine, SourceInfo, UNEXPLAINED, Verdict};
 use percent_encoding::{AsciiSet, NON_ALPHANUMERIC, utf8_percent_encode};
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
@@ -169,7 +169,7 @@ fn uri(place: &FileLocation) -> String {
 
 fn lost<'a>(file: &Artifact, line: &'a RubricLine, language: Language) -> SarifResult<'a> {
     SarifResult {
-        rule: line.mistake.as_deref().unwrap_or(rules::UNEXPLAINED),
+        rule: line.mistake.as_deref().unwrap_or(UNEXPLAINED),
         level: "warning",
         message: format!("{}: {}", wording::rubric_title(line, language), visible(line.message.get(language))),
         region: line.line.and_then(|number| file.lines.whole(number)),

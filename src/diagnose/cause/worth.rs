@@ -1,8 +1,9 @@
 //! What a cause leaves of each line's points.
 
-use super::{Cause, NEARLY_RIGHT, PART_ABSENT, PART_MISSING, PART_SCALED, UNEXPLAINED};
+use super::{Cause, NEARLY_RIGHT, PART_ABSENT, PART_MISSING, PART_SCALED};
 use crate::diagnose::inside::Repaired;
 use crate::diagnose::{CONSTANTS_CHANGED, POSITION_CHANGED};
+use crate::report::UNEXPLAINED;
 use reference::Assignment;
 use reference::assignment::RubricItem;
 use reference::derived::{definition, is_derived};

@@ -9,14 +9,11 @@ use crate::assignment::{AssignmentError, HandedIn, Output, error};
 use crate::equation::Reads;
 use crate::interpreter::{Cell, Draft, Formula, Refusal, Stage, StoredOutput, Type};
 use crate::manifest;
-use crate::pipeline::Pipeline;
+use crate::pipeline::{POSITION, Pipeline};
 use crate::text::both;
 
 /// Definitions are held as the bits of a u64.
 const MAX_DEFINITIONS: usize = 64;
-
-/// What `gl_Position` is given is the position.
-const POSITION: &str = "gl_Position";
 
 /// What a whole program shows, as a program: the definitions of a solution whose own cannot be told apart.
 const SHOWN_COLOUR: &str = "shown_colour";

@@ -4,13 +4,11 @@ use crate::class::Class;
 use crate::class::formats::untrusted::one_line;
 use crate::diagnostic::DiagnosticStage;
 use crate::language::{Language, Text};
+use crate::report::UNEXPLAINED;
 use crate::report::labels::{Labels, mistake_title};
 use reference::mistake::Mistake;
 use serde_json::{Value, json};
 use std::collections::HashMap;
-
-/// The rule of lost points that no known mistake explains.
-pub(super) const UNEXPLAINED: &str = "unexplained";
 
 /// The rule of what a stage says.
 pub(super) fn stage(stage: DiagnosticStage) -> &'static str {
