@@ -75,7 +75,8 @@ pub fn digest(files: &[(&str, String)]) -> String {
     hexadecimal(digest.finalize().as_slice())
 }
 
-fn hexadecimal(bytes: &[u8]) -> String {
+/// Bytes as hexadecimal digits, two for each.
+pub fn hexadecimal(bytes: &[u8]) -> String {
     bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 

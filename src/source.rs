@@ -21,7 +21,7 @@ pub use kind::fragment_shader;
 pub use program::{ReadProgram, read_program};
 
 use crate::diagnostic::Diagnostic;
-use crate::hand_in::{HandIn, HandedInFile};
+use crate::hand_in::{HandIn, HandedInFile, hexadecimal};
 use crate::language::Text;
 use comments::SourceComment;
 use reference::assignment::HandedIn;
@@ -113,7 +113,7 @@ pub fn read_stage(stage: Stage, name: &str, bytes: &[u8]) -> Result<Source, Box<
 
 impl FileFacts {
     fn of(name: &str, bytes: &[u8]) -> Self {
-        let sha256 = Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect();
+        let sha256 = hexadecimal(&Sha256::digest(bytes));
         Self { name: name.to_owned(), bytes: bytes.len(), sha256, encoding: None }
     }
 }

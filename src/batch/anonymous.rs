@@ -7,6 +7,7 @@
 use crate::class::folder::OutputFolder;
 use crate::class::formats::plain::cell;
 use crate::fault::Fault;
+use crate::hand_in::hexadecimal;
 use crate::intake::{FileLocation, HandInContent, Intake, Refused, Student, StudentWork};
 use crate::language::Text;
 use crate::slots::Slot;
@@ -60,8 +61,8 @@ impl Pseudonyms {
             None => {
                 let mut bytes = [0; KEY_BYTES];
                 getrandom::fill(&mut bytes).map_err(|error| no_random(&error))?;
-                let hex: String = bytes.iter().map(|byte| format!("{byte:02x}")).collect();
-                folder.write_private(KEY_FILE, format!("{WARNING}{hex}\n").as_bytes())?;
+                let digits = hexadecimal(&bytes);
+                folder.write_private(KEY_FILE, format!("{WARNING}{digits}\n").as_bytes())?;
                 bytes
             }
         };

@@ -4,6 +4,7 @@
 //! computed again.
 
 use super::Pack;
+use crate::hand_in::hexadecimal;
 use reference::Assignment;
 use sha2::{Digest, Sha256};
 use std::ffi::OsString;
@@ -62,7 +63,7 @@ fn name(assignment: &Assignment) -> String {
 
 /// What stands before the pictures.
 fn head(assignment: &Assignment, pack: &[u8]) -> String {
-    let sum: String = Sha256::digest(pack).iter().map(|byte| format!("{byte:02x}")).collect();
+    let sum = hexadecimal(&Sha256::digest(pack));
     format!("{FORMAT} {} {} {sum}\n", reference::ENGINE, assignment.digest)
 }
 

@@ -3,6 +3,7 @@
 use super::Student;
 use super::moodle;
 use super::students::Who;
+use crate::hand_in::hexadecimal;
 use sha2::{Digest, Sha256};
 use std::collections::HashMap;
 
@@ -85,7 +86,7 @@ fn hashed(who: &Who) -> String {
         start.push_str("student");
     }
     let digest = Sha256::digest(who.place.as_bytes());
-    let hash: String = digest.iter().flat_map(|byte| format!("{byte:02x}").into_bytes()).map(char::from).collect();
+    let hash = hexadecimal(&digest);
     format!("{start}-{}", &hash[..HASH_DIGITS])
 }
 

@@ -35,7 +35,7 @@ pub use join::{
 pub use login::{LoginForm, login, logout, open_for};
 pub(super) use login::{check_session, end_session};
 pub use origin::is_own_page;
-pub(super) use secrets::{equal_secrets, hex};
+pub(super) use secrets::equal_secrets;
 pub use secrets::{hash_password, new_id, new_token, token_hash};
 pub(super) use staff::PASSWORD_SETTING;
 pub(crate) use staff::SHORTEST_PASSWORD;

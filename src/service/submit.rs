@@ -12,7 +12,7 @@ use super::identity::{Identity, new_id};
 use super::store::{Added, NewSubmission, Priority, Sender, StoredKey, StoredSubmission, Submission, Via};
 use super::{Config, metrics, store};
 use crate::fault::Fault;
-use crate::hand_in::HandIn;
+use crate::hand_in::{HandIn, hexadecimal};
 use crate::report::{Hints, Report};
 use crate::slots::Slot;
 use crate::source;
@@ -226,7 +226,7 @@ fn new_submission(
 
 /// SHA-256 in hexadecimal.
 pub(super) fn sha256(bytes: &[u8]) -> String {
-    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
+    hexadecimal(&Sha256::digest(bytes))
 }
 
 /// The last part of a name as handed in, of a bearable length and without what turns the direction of writing, which makes an ending

@@ -15,6 +15,7 @@ use super::wording;
 use crate::class::standing::Standing;
 use crate::class::{Class, ClassEntry};
 use crate::fault::Fault;
+use crate::hand_in::hexadecimal;
 use crate::language::Text;
 use crate::report::Report;
 use crate::report::labels::mistake_title;
@@ -34,7 +35,7 @@ impl StopToken {
                 format!("乱数を取得できません: {error}"),
             ))
         })?;
-        Ok(Self(bytes.iter().map(|byte| format!("{byte:02x}")).collect()))
+        Ok(Self(hexadecimal(&bytes)))
     }
 
     /// `text` so that the runner shows it and obeys nothing in it.

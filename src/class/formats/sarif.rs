@@ -9,6 +9,7 @@ use super::untrusted::visible;
 use super::wording;
 use crate::class::{Class, ClassEntry, Outcome};
 use crate::diagnostic::{Diagnostic, Severity};
+use crate::hand_in::hexadecimal;
 use crate::intake::FileLocation;
 use crate::language::Language;
 use crate::report::{AdviceLine, RubricLine, SourceInfo, UNEXPLAINED, Verdict};
@@ -139,7 +140,7 @@ impl SarifRun {
         const BYTES: usize = 8;
         let text = finding.line.map_or("", |line| file.lines.text(line).trim());
         let digest = Sha256::digest(format!("{}\0{}\0{text}", finding.rule, file.uri));
-        let hash: String = digest.iter().take(BYTES).map(|byte| format!("{byte:02x}")).collect();
+        let hash = hexadecimal(&digest[..BYTES]);
         let count = self.seen.entry(hash.clone()).or_default();
         *count += 1;
         format!("{hash}:{count}")

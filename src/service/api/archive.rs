@@ -1,10 +1,10 @@
 //! An archive out of a request, onto the disk: it may be larger than memory should be.
 
 use super::body::other;
+use crate::hand_in::hexadecimal;
 use crate::service::Service;
 use crate::service::errors::Problem;
 use crate::service::idempotency::{self, RequestKey};
-use crate::service::identity::hex;
 use crate::service::limits::Client;
 use crate::service::store::StoredKey;
 use crate::source::lookalikes::is_bidi;
@@ -132,7 +132,7 @@ async fn saved<E>(
         file.write_all(&chunk).await.map_err(disk)?;
     }
     file.flush().await.map_err(disk)?;
-    Ok((path, hex(&digest.finalize())))
+    Ok((path, hexadecimal(&digest.finalize())))
 }
 
 fn broken_off(_: axum::Error) -> Problem {

@@ -1,6 +1,7 @@
 //! Tokens in forms, which only pages of ours can know: a keyed hash of the cookie that the form comes with.
 
-use super::secrets::{equal_secrets, hex};
+use super::secrets::equal_secrets;
+use crate::hand_in::hexadecimal;
 use crate::service::Service;
 use crate::service::errors::Problem;
 use axum::http::StatusCode;
@@ -13,7 +14,7 @@ pub(in crate::service) fn token(service: &Service, cookie: &str) -> String {
     let Ok(mut mac) = Hmac::<Sha256>::new_from_slice(&service.key) else { return String::new() };
     mac.update(b"csrf ");
     mac.update(cookie.as_bytes());
-    hex(&mac.finalize().into_bytes())
+    hexadecimal(&mac.finalize().into_bytes())
 }
 
 /// Lets a form pass that has its cookie's token.

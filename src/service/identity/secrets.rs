@@ -1,6 +1,7 @@
 //! Ids, tokens, hashes.
 
 use crate::fault::Fault;
+use crate::hand_in::hexadecimal;
 use crate::language::Text;
 use argon2::Argon2;
 use argon2::password_hash::phc::PasswordHash;
@@ -23,11 +24,7 @@ pub fn new_token() -> String {
 
 /// What is stored of a secret that has too many bits to be guessed.
 pub fn token_hash(token: &str) -> String {
-    hex(&Sha256::digest(token.as_bytes()))
-}
-
-pub(in crate::service) fn hex(bytes: &[u8]) -> String {
-    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
+    hexadecimal(&Sha256::digest(token.as_bytes()))
 }
 
 /// Whether two secrets are the same; the time that it takes tells nothing of where they differ.

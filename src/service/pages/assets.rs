@@ -1,6 +1,7 @@
 //! What pages load besides themselves: styles, scripts, the right pictures of each assignment. All of it is part of the
 //! program; an address holds a hash of the content, so that a browser may keep it for ever.
 
+use crate::hand_in::hexadecimal;
 use crate::pictures::{DrawnOnce, expected_pictures, telling_pose};
 use crate::report::html::{BASE_STYLE, Motion, REPORT_STYLE, SCRIPT, expected_sheet};
 use axum::extract::Path;
@@ -23,7 +24,7 @@ struct Asset {
 impl Asset {
     fn new(name: impl Into<String>, content: impl Into<Cow<'static, [u8]>>) -> Self {
         let (name, content) = (name.into(), content.into());
-        let hash: String = Sha256::digest(&content).iter().take(8).map(|byte| format!("{byte:02x}")).collect();
+        let hash = hexadecimal(&Sha256::digest(&content)[..8]);
         let (stem, extension) = name.rsplit_once('.').unwrap_or((&name, ""));
         let kind = match extension {
             "css" => "text/css; charset=utf-8",

@@ -5,6 +5,7 @@
 //! with earlier turns: nobody waits for an idle grader. All processes on a database take turns together.
 
 use super::{Result, Store, on};
+use crate::hand_in::hexadecimal;
 use crate::service::clock::Millis;
 use sha2::{Digest, Sha256};
 use std::net::IpAddr;
@@ -53,7 +54,7 @@ impl Sender {
             Self::Owner(id) => format!("owner {id}"),
             Self::Address(address) => format!("address {address}"),
         };
-        Sha256::digest(text).iter().map(|byte| format!("{byte:02x}")).collect()
+        hexadecimal(&Sha256::digest(text))
     }
 
     /// How much later the turn of each further file is.
