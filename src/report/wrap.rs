@@ -1,5 +1,6 @@
 //! Text in terminal columns: width, padding, and line breaking for Latin and Japanese text alike.
 
+use crate::source::lookalikes::is_bidi;
 use unicode_width::{UnicodeWidthChar, UnicodeWidthStr};
 
 /// Must not begin a line (kinsoku shori, JIS X 4051).
@@ -21,13 +22,10 @@ pub(crate) fn pad(text: &str, width: usize) -> String {
 ///
 /// Line feeds stay, and tabs become spaces.
 pub(crate) fn plain(text: &str) -> String {
-    let steers = |c: char| {
-        c.is_control() || matches!(c, '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
-    };
     let show = |c: char| match c {
         '\n' => '\n',
         '\t' => ' ',
-        c if steers(c) => char::REPLACEMENT_CHARACTER,
+        c if c.is_control() || is_bidi(c) => char::REPLACEMENT_CHARACTER,
         c => c,
     };
     text.chars().map(show).collect()

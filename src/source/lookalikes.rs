@@ -29,9 +29,14 @@ pub(crate) fn is_invisible(c: char) -> bool {
     matches!(c, '\u{AD}' | '\u{34F}' | '\u{180E}' | '\u{200B}'..='\u{200D}' | '\u{2060}'..='\u{2064}' | '\u{FE00}'..='\u{FE0F}' | '\u{FEFF}')
 }
 
-/// Characters that turn the direction of the text after them, so that code reads in another order than it runs.
+/// Characters that have a say in the direction of text, so that code reads in another order than it runs.
 pub(crate) fn is_bidi(c: char) -> bool {
-    matches!(c, '\u{61C}' | '\u{200E}' | '\u{200F}' | '\u{202A}'..='\u{202E}' | '\u{2066}'..='\u{2069}')
+    reorders(c) || matches!(c, '\u{61C}' | '\u{200E}' | '\u{200F}')
+}
+
+/// Those of them that turn the direction of all the text after them.
+pub(crate) fn reorders(c: char) -> bool {
+    matches!(c, '\u{202A}'..='\u{202E}' | '\u{2066}'..='\u{2069}')
 }
 
 fn punctuation(c: char) -> Option<&'static str> {

@@ -1,12 +1,13 @@
 //! Text that a student wrote, made harmless for the reader that it goes to.
 
+use crate::source::lookalikes::reorders;
+
 /// Control characters and the invisible characters that turn the direction of the text around them become `U+FFFD`;
 /// line ends and tabs become spaces.
 pub(super) fn one_line(text: &str) -> String {
     let clean = |c: char| match c {
         '\n' | '\r' | '\t' => ' ',
-        '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}' => char::REPLACEMENT_CHARACTER,
-        c if c.is_control() => char::REPLACEMENT_CHARACTER,
+        c if c.is_control() || reorders(c) => char::REPLACEMENT_CHARACTER,
         c => c,
     };
     text.replace("\r\n", "\n").chars().map(clean).collect()
