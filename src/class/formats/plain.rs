@@ -43,17 +43,25 @@ fn is_blank(c: char) -> bool {
 pub(super) fn html(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in one_line(text).chars() {
-        match c {
-            '&' => out.push_str("&amp;"),
-            '<' => out.push_str("&lt;"),
-            '>' => out.push_str("&gt;"),
-            '"' => out.push_str("&quot;"),
-            '\'' => out.push_str("&#39;"),
-            '\\' => out.push_str("&#92;"),
-            c => out.push(c),
+        match entity(c) {
+            Some(named) => out.push_str(named),
+            None if c == '\\' => out.push_str("&#92;"),
+            None => out.push(c),
         }
     }
     out
+}
+
+/// What stands for a character that HTML does not take as itself, in an element and in a quoted attribute.
+pub(super) const fn entity(c: char) -> Option<&'static str> {
+    match c {
+        '&' => Some("&amp;"),
+        '<' => Some("&lt;"),
+        '>' => Some("&gt;"),
+        '"' => Some("&quot;"),
+        '\'' => Some("&#39;"),
+        _ => None,
+    }
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! Text that students had a hand in (names, file names, what a compiler quotes) made harmless.
 
+use super::plain::entity;
 use crate::excerpt;
 use crate::report::html::rich;
 
@@ -18,13 +19,9 @@ pub fn one_line(text: &str) -> String {
 pub fn html(text: &str) -> String {
     let mut html = String::with_capacity(text.len());
     for c in visible(text).chars() {
-        match c {
-            '&' => html.push_str("&amp;"),
-            '<' => html.push_str("&lt;"),
-            '>' => html.push_str("&gt;"),
-            '"' => html.push_str("&quot;"),
-            '\'' => html.push_str("&#39;"),
-            _ => html.push(c),
+        match entity(c) {
+            Some(named) => html.push_str(named),
+            None => html.push(c),
         }
     }
     html

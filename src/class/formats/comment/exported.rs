@@ -3,6 +3,8 @@
 //! `core_table\\base_export_format::format_text` puts three blanks for `</p>` and for line ends, strips the tags and decodes
 //! the entities but for those of the single quote (Moodle 3.11 to 5.1). Older versions give the HTML as it is.
 
+use crate::class::formats::plain::entity;
+
 /// What stands in an export where a paragraph or a line ended.
 pub(super) const GAP: &str = "   ";
 
@@ -112,14 +114,10 @@ pub(super) fn paragraphs(text: &str) -> String {
 fn escaped(text: &str) -> String {
     let mut html = String::with_capacity(text.len());
     for (at, c) in text.char_indices() {
-        match c {
-            '&' if !begins_entity(&text[at + 1..]) => html.push_str("&amp;"),
-            '<' => html.push_str("&lt;"),
-            '>' => html.push_str("&gt;"),
-            '"' => html.push_str("&quot;"),
-            '\'' => html.push_str("&#39;"),
-            '\\' => html.push_str("&#92;"),
-            c => html.push(c),
+        match entity(c) {
+            Some(named) if c != '&' || !begins_entity(&text[at + 1..]) => html.push_str(named),
+            None if c == '\\' => html.push_str("&#92;"),
+            _ => html.push(c),
         }
     }
     html
