@@ -122,6 +122,9 @@ const STRANGERS: [(&str, &[&str]); 5] = [
     ("service", &["batch", "corpus", "command"]),
 ];
 
+/// Stages that `batch`, `class` and `service` leave to `grade`.
+const STAGES: [&str; 5] = ["translate", "render", "compare", "diagnose", "cross_check"];
+
 /// What the code of a room imports: the paths behind `crate::`, comments and tests left out.
 fn imports(room: &str) -> Vec<String> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
@@ -167,6 +170,9 @@ fn a_room_knows_only_what_stands_before_it() {
     }
     for (room, strangers) in STRANGERS {
         assert_unknown(room, strangers);
+    }
+    for room in ["batch", "class", "service"] {
+        assert_unknown(room, &STAGES);
     }
 }
 
