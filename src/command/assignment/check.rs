@@ -104,11 +104,13 @@ fn disagreements(report: &Report) -> Vec<Text> {
         Text::new(
             format!(
                 "frame at t = {t:.3}: the driver's colour differs from the interpreter's in {pixels} pixels, and something is drawn by one of \
-                 them alone in {others}: does a comparison there hang on rounding?"
+                 them alone in {others}: does a comparison there depend on rounding, or does `fract` or `floor` of a large number, as in \
+                 `fract(sin(x) * 43758.5)`? A hash of whole numbers is the same everywhere"
             ),
             format!(
                 "t = {t:.3} のフレーム: ドライバーとインタープリターで、{pixels} 画素の色が違い、{others} 画素は一方だけが描いています。\
-                 丸め誤差で結果が変わる比較はありませんか"
+                 丸め誤差で結果が変わる比較や、`fract(sin(x) * 43758.5)` のように大きな数の小数部分を取る計算はありませんか。\
+                 整数のハッシュなら、どこでも同じ値になります"
             ),
         )
     });
