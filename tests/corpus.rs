@@ -21,7 +21,7 @@ use std::sync::atomic::AtomicBool;
 const SAMPLES: [(&str, usize); 31] = [
     ("blinn", 191),
     ("bumps", 13),
-    ("dunes", 10),
+    ("dunes", 11),
     ("falloff-linear", 211),
     ("falloff-pixar", 222),
     ("falloff-quadratic", 210),

@@ -42,6 +42,8 @@ pub enum Operator {
     AddendLeftOut,
     /// A factor is left out.
     FactorLeftOut,
+    /// A matrix is left out of a product.
+    MatrixLeftOut,
     /// A divisor is left out.
     DivisorLeftOut,
     /// A statement is left out.
@@ -121,7 +123,7 @@ impl Operator {
 #[cfg(test)]
 impl Operator {
     /// All of them.
-    pub const ALL: [Self; 40] = [
+    pub const ALL: [Self; 41] = [
         Self::ClampLeftOut,
         Self::NormalizeLeftOut,
         Self::PowerLeftOut,
@@ -129,6 +131,7 @@ impl Operator {
         Self::LeftOut,
         Self::AddendLeftOut,
         Self::FactorLeftOut,
+        Self::MatrixLeftOut,
         Self::DivisorLeftOut,
         Self::StatementLeftOut,
         Self::FallsThrough,

@@ -108,17 +108,20 @@ impl OperatorChain<'_> {
             _ => operand,
         };
         let without = if rest.is_empty() { start } else { self.chain(start, rest) };
-        let left_out = |operator| match operator {
+        let left_out = |operator, operand: &Expression, scope: &mut NameScope<'_>| match operator {
             Binary::Divide => Some(Operator::DivisorLeftOut),
+            Binary::Multiply if matches!((scope.kind)(operand), Some(Type::Matrix(..))) => {
+                Some(Operator::MatrixLeftOut)
+            }
             Binary::Multiply => Some(Operator::FactorLeftOut),
             _ if is_additive(operator) => Some(Operator::AddendLeftOut),
             _ => None,
         };
-        let first = if begins == Binary::Divide { None } else { left_out(begins) };
+        let first = if begins == Binary::Divide { None } else { left_out(begins, self.first, scope) };
         let first = first.filter(|_| is_alike(&without, scope));
         found.extend(first.map(|kind| Local::new(kind, without).about(self.first)));
         for (at, (operator, _, operand)) in self.others.iter().enumerate() {
-            let Some(kind) = left_out(*operator) else { continue };
+            let Some(kind) = left_out(*operator, operand, scope) else { continue };
             let mut others = self.others.clone();
             others.remove(at);
             let first = self.first.clone();

@@ -26,6 +26,7 @@ pub(super) fn mistake_of(root: &Expression, change: &Change) -> Operator {
                 _ => Operator::Times,
             })
         }
+        Operator::MatrixLeftOut => Operator::Times,
         Operator::AddedTwice => Operator::AddendLeftOut,
         Operator::Squared | Operator::Times => Operator::FactorLeftOut,
         Operator::Absolute | Operator::Root => Operator::CallLeftOut,

@@ -26,7 +26,7 @@ impl Ingredients {
             let factors = vec![(Binary::Multiply, own.line, bracketed(own))];
             let product = Expression::made(own.line, ExpressionKind::Chain(Box::new(bracketed(matrix)), factors));
             AddedMistake {
-                mistake: Operator::FactorLeftOut,
+                mistake: Operator::MatrixLeftOut,
                 expression: Expression::made(own.line, ExpressionKind::Comma(vec![product])),
                 name: None,
                 is_bound_by_zero: false,
