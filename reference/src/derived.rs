@@ -4,6 +4,7 @@
 //! compute the same as a form before them, or as a written mistake, are left out; the plainer operators come first.
 
 mod alike;
+mod feature_text;
 mod operator;
 mod programs;
 mod within;
