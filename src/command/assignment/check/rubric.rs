@@ -91,6 +91,11 @@ fn beside_others(line: &RubricItem, place: &Text) -> Text {
         format!("採点の行 `{id}`: {}。いつもほかの行と同時に現れるので、検査点だけでは採点できない", place.ja),
     );
     let names: Vec<String> = line.variables.iter().take(MOST_NAMES).map(|name| format!("`{name}`")).collect();
+    let more = line.variables.len() - names.len();
+    let (and_more, more_ja) = match more {
+        0 => (String::new(), String::new()),
+        _ => (format!(" or {more} more"), format!(" ほか {more} 個")),
+    };
     match names.is_empty() {
         true => Text::new(
             format!("{}: an answer that no mistake explains loses its points", shown.en),
@@ -98,13 +103,13 @@ fn beside_others(line: &RubricItem, place: &Text) -> Text {
         ),
         false => Text::new(
             format!(
-                "{}. It is judged by the text of an answer: a slip that is found in {} costs this line; where none is found, no line that shows \
+                "{}. It is judged by the text of an answer: a slip that is found in {}{and_more} costs this line; where none is found, no line that shows \
                  there keeps its points",
                 shown.en,
                 names.join(", ")
             ),
             format!(
-                "{}。答えの文面で採点し、{} に見つかった間違いはこの行から引きます。間違いの場所が分からない答えでは、そこに現れる行の点は残りません",
+                "{}。答えの文面で採点し、{}{more_ja} に見つかった間違いはこの行から引きます。間違いの場所が分からない答えでは、そこに現れる行の点は残りません",
                 shown.ja,
                 names.join("、")
             ),
