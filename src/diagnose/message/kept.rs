@@ -5,10 +5,11 @@ use crate::diagnose::cause::terms_alone;
 use crate::diagnose::columns::is_colour;
 use crate::diagnose::{Cause, Evidence, addends};
 use crate::language::Text;
+use crate::render::Sample;
 use glam::DVec3;
 use reference::assignment::RubricItem;
 use reference::derived::is_derived;
-use reference::fit::{Alternatives, Footprints, TermJudgement};
+use reference::fit::{Alternatives, Footprints, TermJudgement, is_right};
 use std::cell::OnceCell;
 
 /// What is known of such lines of a wrong answer, looked up once it is asked for.
@@ -31,8 +32,9 @@ impl KeptLines {
     pub fn of(&self, evidence: &Evidence<'_>, cause: &Cause, line: &RubricItem) -> Text {
         // The numbers that a program lists are known one by one.
         let is_listed = evidence.assignment.files.iter().any(|file| file.program.is_some());
-        let is_right = matches!(cause, Cause::Right) || *self.is_right.get_or_init(|| all_colours_are_right(evidence));
-        if is_listed || is_right || evidence.assignment.judges_position(line) {
+        let all_is_right =
+            matches!(cause, Cause::Right) || *self.is_right.get_or_init(|| all_colours_are_right(evidence));
+        if is_listed || all_is_right || evidence.assignment.judges_position(line) {
             return agreement(evidence, line);
         }
         if *self.is_finite_nowhere.get_or_init(|| addends::is_finite_nowhere(evidence)) {
@@ -93,8 +95,8 @@ impl KeptLines {
 }
 
 fn all_colours_are_right(evidence: &Evidence<'_>) -> bool {
-    let mut colours = evidence.probes.iter().zip(evidence.samples);
-    colours.all(|(probe, sample)| is_colour(probe.colour, DVec3::from(sample.colour_f64())))
+    let samples: Vec<[f64; 3]> = evidence.samples.iter().map(Sample::colour_f64).collect();
+    is_right(evidence.probes, &samples, COLOUR_TOLERANCE)
 }
 
 /// What is said of a line that costs nothing where no colour is a number.
