@@ -1,7 +1,6 @@
 //! Where GLSL leaves the result of an operation open.
 
 use crate::interpreter::code::{ArithmeticClass, Operation};
-use std::fmt;
 
 /// Why a value may be anything.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -82,29 +81,6 @@ impl Undefined {
             }
             Self::Texture => ("a lookup that OpenGL leaves open", "OpenGL で結果の決まらないテクスチャ参照です"),
         }
-    }
-}
-
-impl fmt::Display for Undefined {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Uninitialised => "a variable is read before it has a value",
-            Self::Unwritten => "an output is never written",
-            Self::NoResult => "a function ends without a result",
-            Self::Index => "an index is out of range",
-            Self::Power => "pow of a negative base, or of 0 and an exponent that is not positive",
-            Self::Domain => "a function is called outside of its domain",
-            Self::Division => "a division by zero",
-            Self::Remainder => "the remainder of a negative integer",
-            Self::Shift => "a shift by less than 0 or more than 31 bits",
-            Self::Bitfield => "a field of bits that is not within 32",
-            Self::Conversion => "a number is converted to an integer type that cannot hold it",
-            Self::NotANumber => "a value is not a number",
-            Self::Half => "round of a number between two whole ones",
-            Self::Bounds => "the bounds of smoothstep or clamp are in the wrong order",
-            Self::Derivative => "a derivative where not all four pixels run",
-            Self::Texture => "a texture lookup that OpenGL leaves open",
-        })
     }
 }
 
