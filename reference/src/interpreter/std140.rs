@@ -24,9 +24,9 @@ struct Room {
     alignment: u32,
 }
 
-/// Where each scalar, vector and matrix of a block begins, in bytes: part by part, in the order of the members. Their rules are those of
-/// GLSL 4.40, section 4.4.5, where a layout says more than the types.
-pub fn offsets(members: &[BlockMember]) -> Vec<u32> {
+/// Where each scalar, vector and matrix of a block begins, in bytes, and whether it is a matrix whose rows lie before its columns: part by
+/// part, in the order of the members. Their rules are those of GLSL 4.40, section 4.4.5, where a layout says more than the types.
+pub fn places(members: &[BlockMember]) -> Vec<(u32, bool)> {
     let mut found = Vec::new();
     let mut end = 0;
     for member in members {
@@ -98,7 +98,7 @@ fn elements(element: &Type, is_row_major: bool) -> (u32, u32) {
     (size.next_multiple_of(alignment), alignment)
 }
 
-fn place(kind: &Type, start: u32, is_row_major: bool, found: &mut Vec<u32>) {
+fn place(kind: &Type, start: u32, is_row_major: bool, found: &mut Vec<(u32, bool)>) {
     match kind {
         Type::Struct(structure) => {
             let mut end = start;
@@ -114,7 +114,7 @@ fn place(kind: &Type, start: u32, is_row_major: bool, found: &mut Vec<u32>) {
             (0..length.unwrap_or(1) as u32)
                 .for_each(|index| place(element, start + index * stride, is_row_major, found));
         }
-        _ => found.push(start),
+        _ => found.push((start, is_row_major && matches!(kind, Type::Matrix(..)))),
     }
 }
 

@@ -103,13 +103,10 @@ impl Compiler {
 
     /// Says where the uniforms from `first` on lie, which are the parts of a block; those of several blocks in an array have no place.
     fn place_parts(&mut self, first: usize, block: &InterfaceBlock, members: &[BlockMember]) {
-        let offsets = std140::offsets(members);
-        let Some(parts) = self.uniforms.get_mut(first..).filter(|parts| parts.len() == offsets.len()) else { return };
+        let places = std140::places(members);
+        let Some(parts) = self.uniforms.get_mut(first..).filter(|parts| parts.len() == places.len()) else { return };
         let is_std140 = block.qualifiers.is_std140;
-        let row_major =
-            members.iter().flat_map(|own| vec![own.is_row_major; std140::offsets(std::slice::from_ref(own)).len()]);
-        for ((part, offset), is_row_major) in parts.iter_mut().zip(offsets).zip(row_major) {
-            let is_row_major = is_row_major && matches!(part.kind, Type::Matrix(..));
+        for (part, (offset, is_row_major)) in parts.iter_mut().zip(places) {
             part.place = Some(BlockPlace { block: block.name.to_string(), offset, is_std140, is_row_major });
         }
     }
